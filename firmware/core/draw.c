@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * The stages put together: the walk gives a face, its corners are projected
+ * (or clipped first), the outline is scanned, the surface takes the spans.
+ */
+#include "ow_draw.h"
+
+#include "ow_clip.h"
+#include "ow_memory.h"
+#include "ow_project.h"
+#include "ow_scan.h"
+#include "ow_shade.h"
+#include "ow_surface.h"
+
+/* What one call of ow_draw works with. */
+struct frame {
+    const struct ow_tree *tree;
+    const struct ow_view *view;
+    struct ow_workspace *workspace;
+    struct ow_window window;
+    enum ow_winding rule;
+    uint32_t tag; /* the stamp in bits 24-31 */
+    uint32_t dropped;
+    struct ow_surface surface;
+};
+
+static uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
+{
+    uint32_t first = at + tree->corners_in_record;
+    return (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(tree->bytes, first + 4 * i)
+                                           : ow_read_u16(tree->bytes, first + 2 * i);
+}
+
+/* A vertex's place on the screen, from the cache or computed into it. */
+static inline struct ow_outline_point screen_vertex(const struct frame *frame, uint32_t vertex)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    struct ow_cached_vertex *cached = &workspace->cache[vertex & workspace->cache_mask];
+    uint32_t tag = frame->tag | vertex;
+    if (cached->tag != tag) {
+        struct ow_camera_point p = ow_to_camera(frame->tree, frame->view, vertex);
+        cached->tag = tag;
+        if (ow_is_inside(frame->view, p)) {
+            cached->point = ow_to_screen(frame->view, p);
+        } else {
+            cached->point.x = OW_CLIP_FIRST;
+        }
+    }
+    return cached->point;
+}
+
+/* The face's outline by way of the clipper. Returns its count of points, 0 for none. */
+static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, uint32_t corners)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    for (uint32_t i = 0; i < corners; i++) {
+        uint32_t from = face->reverse ? corners - 1 - i : i;
+        workspace->clip[0][i] =
+            ow_to_camera(frame->tree, frame->view, corner(frame->tree, face->at, from));
+    }
+    uint32_t which;
+    bool overflow = false;
+    uint32_t count = ow_clip(frame->view, workspace->clip, corners, workspace->capacity, &which,
+                             &overflow);
+    frame->dropped += overflow;
+    for (uint32_t i = 0; i < count; i++) {
+        workspace->outline[i] = ow_to_screen(frame->view, workspace->clip[which][i]);
+    }
+    return count < 3 ? 0 : count;
+}
+
+/* The face's outline in workspace->outline. Returns its count of points, 0 for none. */
+static uint32_t project_outline(struct frame *frame, const struct ow_face *face)
+{
+    const struct ow_tree *tree = frame->tree;
+    struct ow_outline_point *outline = frame->workspace->outline;
+    uint32_t corners = ow_read_u8(tree->bytes, face->at);
+    for (uint32_t i = 0; i < corners; i++) {
+        uint32_t to = face->reverse ? corners - 1 - i : i;
+        outline[to] = screen_vertex(frame, corner(tree, face->at, i));
+        if (outline[to].x == OW_CLIP_FIRST) {
+            return clip_outline(frame, face, corners);
+        }
+    }
+    return corners;
+}
+
+static void draw_faces(struct frame *frame, const struct ow_surface_kind *kind,
+                       const struct ow_shader *shader, struct ow_walk *walk,
+                       struct ow_stats *stats)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    struct ow_surface *surface = &frame->surface;
+    struct ow_face face;
+    while (!kind->is_full(surface) && ow_walk_next(walk, &face)) {
+        uint32_t count = project_outline(frame, &face);
+        if (count == 0) {
+            continue;
+        }
+        uint32_t before = surface->pixels_written;
+        surface->colour =
+            surface->target->format->pack(ow_shade_face(shader, frame->tree, &face));
+        ow_scan(workspace->outline, count, frame->rule, &frame->window, workspace->edges,
+                &surface->sink);
+        stats->polygons_painted += surface->pixels_written != before;
+    }
+}
+
+static enum ow_status check(const struct ow_tree *tree, const struct ow_view *view,
+                            const struct ow_target *target, const struct ow_workspace *workspace)
+{
+    uint32_t end_line = (uint32_t)target->first_line + target->line_count;
+    bool fits = view->width <= workspace->width && target->line_count <= workspace->lines &&
+                target->line_count > 0 && end_line <= view->height && target->stride % 4 == 0 &&
+                target->stride >= ow_row_bytes(target->format, view->width) &&
+                (uintptr_t)target->pixels % 4 == 0 &&
+                workspace->capacity >= 2 * tree->max_corners &&
+                (workspace->cache_mask != 0xFFFFFFFFu ||
+                 workspace->cache_entries >= tree->vertex_count);
+    return fits ? OW_OK : OW_ARGUMENT;
+}
+
+/* A stamp that no entry of the cache has yet: what is cached is one call's. */
+static uint32_t next_stamp(struct ow_workspace *workspace)
+{
+    if (++workspace->stamp > 255) {
+        memset(workspace->cache, 0, (size_t)workspace->cache_entries * sizeof *workspace->cache);
+        workspace->stamp = 1;
+    }
+    return workspace->stamp << 24;
+}
+
+static void begin_surface(struct ow_surface *surface, const struct ow_surface_kind *kind,
+                          const struct ow_workspace *workspace, const struct ow_view *view,
+                          const struct ow_target *target)
+{
+    memset(surface, 0, sizeof *surface);
+    surface->sink.spans = workspace->spans;
+    surface->sink.capacity = workspace->lines;
+    surface->sink.take = kind->take;
+    surface->target = target;
+    surface->width = view->width;
+    surface->unlit = workspace->unlit;
+    surface->open_pixels = workspace->open_pixels;
+    surface->words_in_line = (view->width + 31u) / 32;
+}
+
+enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
+                       const struct ow_look *look, const struct ow_target *target,
+                       struct ow_workspace *workspace, struct ow_stats *stats)
+{
+    struct ow_stats counted;
+    struct ow_walk walk;
+    struct ow_shader shader;
+    struct frame frame;
+    const struct ow_surface_kind *kind =
+        look->order == OW_FRONT_TO_BACK ? &ow_surface_dynamic : &ow_surface_painter;
+    enum ow_status status = check(tree, view, target, workspace);
+    if (status == OW_OK) {
+        status = ow_walk_begin(&walk, tree, view, kind->direction, look->cull, workspace->stack);
+    }
+    if (status != OW_OK) {
+        return status;
+    }
+    memset(&counted, 0, sizeof counted);
+    frame.tree = tree;
+    frame.view = view;
+    frame.workspace = workspace;
+    frame.window = (struct ow_window){target->first_line, target->first_line + target->line_count,
+                                      view->width};
+    frame.rule = walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
+    frame.tag = next_stamp(workspace);
+    frame.dropped = 0;
+    begin_surface(&frame.surface, kind, workspace, view, target);
+    ow_shader_make(&shader, look, view);
+    uint32_t background = target->format->pack(look->background);
+    kind->begin(&frame.surface, background);
+    draw_faces(&frame, kind, &shader, &walk, &counted);
+    kind->end(&frame.surface, background);
+    counted.polygons_visited = walk.faces_met;
+    counted.pixels_written = frame.surface.pixels_written;
+    counted.pixels_background = frame.surface.pixels_background;
+    counted.spans = frame.surface.spans_written;
+    counted.polygons_dropped = frame.dropped;
+    if (stats != NULL) {
+        *stats = counted;
+    }
+    return frame.dropped > 0 ? OW_CAPACITY : OW_OK;
+}

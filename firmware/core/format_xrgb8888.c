@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: 0BSD */
+/* Pixel format: 32-bit little-endian words 0x00RRGGBB; the high byte is spare and written 0. */
+#include "ow_memory.h"
+#include "ow_pixel.h"
+
+static uint32_t same(uint32_t rgb)
+{
+    return rgb & 0xFFFFFF;
+}
+
+static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
+{
+    ow_word32 *pixel = (ow_word32 *)(void *)row;
+    uint32_t word = ow_little32(value);
+    for (uint32_t x = first; x < end; x++) {
+        pixel[x] = word;
+    }
+}
+
+static uint32_t get(const uint8_t *row, uint32_t x)
+{
+    return ow_little32(((const ow_word32 *)(const void *)row)[x]);
+}
+
+const struct ow_pixel_format ow_format_xrgb8888 = {
+    .name = "xrgb8888",
+    .bits = 32,
+    .used = 0x00FFFFFF,
+    .pack = same,
+    .unpack = same,
+    .fill = fill,
+    .get = get,
+};

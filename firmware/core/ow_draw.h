@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Drawing a band of a frame: open -> walk -> clip -> project -> scan -> shade
+ * -> paint, in one call and in memory that the caller gives.
+ */
+#ifndef OW_DRAW_H
+#define OW_DRAW_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "ow_pixel.h"
+#include "ow_status.h"
+#include "ow_tree.h"
+#include "ow_view.h"
+#include "ow_walk.h"
+
+enum ow_order {
+    OW_BACK_TO_FRONT, /* painter's surface: overwrite [FKN80] */
+    OW_FRONT_TO_BACK  /* dynamic screen: each pixel written once [GC91] */
+};
+
+enum ow_shade {
+    OW_SHADE_ID,  /* the source polygon's number as a colour, no light */
+    OW_SHADE_FLAT /* one colour a face: ambient and directional light */
+};
+
+/* Lengths and directions: right, up, towards the viewer; or the model's axes. */
+struct ow_light {
+    int16_t direction_q14[3]; /* unit vector towards the light, 14 fraction bits */
+    uint16_t intensity_q8;    /* 256: a face square to the light shows its colour in full */
+    bool in_model_space;      /* false: the light moves with the viewer */
+};
+
+/* How a frame is to look. */
+struct ow_look {
+    enum ow_order order;
+    enum ow_shade shade;
+    enum ow_cull cull;
+    uint32_t background; /* 0x00RRGGBB; OW_SHADE_ID: packed as it is */
+    uint16_t ambient_q8; /* 256: all faces show their colour in full */
+    struct ow_light light;
+};
+
+/* Where the band's pixels go. */
+struct ow_target {
+    uint8_t *pixels;   /* of first_line's first pixel; aligned to 4 bytes */
+    uint32_t stride;   /* bytes from a line to the next, a multiple of 4 */
+    uint16_t first_line;
+    uint16_t line_count; /* first_line + line_count <= the view's height */
+    const struct ow_pixel_format *format;
+};
+
+/* Counted over one call. */
+struct ow_stats {
+    uint32_t polygons_visited;  /* faces that the walk came by */
+    uint32_t polygons_painted;  /* faces of which at least one pixel was written */
+    uint32_t pixels_written;    /* by the model */
+    uint32_t pixels_background;
+    uint32_t spans;             /* runs of pixels written by the model */
+    uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
+};
+
+struct ow_workspace_config {
+    uint16_t width;  /* largest view to be drawn, pixels */
+    uint16_t lines;  /* most lines of a band */
+    /* Entries of the vertex cache, a power of two or 0: one for every vertex. 12 bytes each. */
+    uint32_t cached_vertices;
+};
+
+/* Private to the core, here so that the caller can place it. */
+struct ow_workspace {
+    struct ow_walk_entry *stack;
+    struct ow_cached_vertex *cache;
+    struct ow_outline_point *outline;
+    struct ow_camera_point *clip[2];
+    struct ow_scan_edge *edges;
+    struct ow_span *spans;
+    uint32_t *unlit;       /* front to back: a bit a pixel */
+    uint16_t *open_pixels; /* front to back: unlit pixels of each line */
+    uint32_t cache_mask;  /* entries - 1, or all ones */
+    uint32_t cache_entries;
+    uint32_t capacity;    /* points of an outline after clipping */
+    uint32_t width;
+    uint32_t lines;
+    uint32_t stamp;       /* of the frame whose vertices are in the cache */
+};
+
+/* Bytes of memory that ow_workspace_place needs. 0: the configuration is out of range. */
+uint32_t ow_workspace_bytes_needed(const struct ow_tree *tree,
+                                   const struct ow_workspace_config *config);
+
+/*
+ * Places a workspace for this tree in memory (aligned to 8 bytes), which must
+ * stay until the workspace is no longer used. Errors: OW_MEMORY, OW_ARGUMENT.
+ */
+enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct ow_tree *tree,
+                                  const struct ow_workspace_config *config, void *memory,
+                                  uint32_t bytes);
+
+/*
+ * Draws one band whole, background included. The picture does not depend on
+ * the order, the bands or the cache. Errors: OW_ARGUMENT, OW_SIDES,
+ * OW_CAPACITY (the rest was drawn). stats may be NULL.
+ */
+enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
+                       const struct ow_look *look, const struct ow_target *target,
+                       struct ow_workspace *workspace, struct ow_stats *stats);
+
+#endif

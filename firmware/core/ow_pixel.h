@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Pixel formats. A format is one file format_NAME.c and a line here. Names
+ * give the channels from the highest bit down; _le and _be the byte order.
+ */
+#ifndef OW_PIXEL_H
+#define OW_PIXEL_H
+
+#include <stdint.h>
+
+struct ow_pixel_format {
+    const char *name;
+    uint8_t bits;      /* of a pixel, spare bits included */
+    uint32_t used;     /* mask of the packed value's bits that show; the others are 0 */
+    /* 0x00RRGGBB to the format's value, rounded to the nearest level. */
+    uint32_t (*pack)(uint32_t rgb);
+    /* The inverse: 0x00RRGGBB, exact at the ends 0 and 255. */
+    uint32_t (*unpack)(uint32_t value);
+    /* Sets pixels first .. end-1 of a row to a packed value; row: aligned to 4 bytes. */
+    void (*fill)(uint8_t *row, uint32_t first, uint32_t end, uint32_t value);
+    /* The packed value of one pixel of a row. */
+    uint32_t (*get)(const uint8_t *row, uint32_t x);
+};
+
+extern const struct ow_pixel_format ow_format_xrgb8888; /* 32-bit little-endian words */
+extern const struct ow_pixel_format ow_format_rgb565;   /* 16-bit little-endian words */
+
+/* Bytes of a row of width pixels without padding. */
+uint32_t ow_row_bytes(const struct ow_pixel_format *format, uint32_t width);
+
+#endif

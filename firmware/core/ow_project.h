@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Stage "project": a lattice point to camera units and on to the screen, once
+ * for each vertex and frame. Inline: these run for every vertex drawn.
+ */
+#ifndef OW_PROJECT_H
+#define OW_PROJECT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "ow_draw.h"
+#include "ow_read.h"
+
+struct ow_camera_point {
+    int32_t x;
+    int32_t y;
+    int32_t z;
+};
+
+struct ow_outline_point {
+    ow_sub4 x;
+    ow_sub4 y;
+};
+
+/* A vertex's place on the screen; OW_CLIP_FIRST in x: it has none before clipping. */
+struct ow_cached_vertex {
+    uint32_t tag; /* the frame's stamp in bits 24-31, the vertex number below */
+    struct ow_outline_point point;
+};
+
+#define OW_CLIP_FIRST INT32_MIN
+
+/* Vertex number vertex of the tree in camera units. */
+static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
+                                                  const struct ow_view *view, uint32_t vertex)
+{
+    uint32_t at = tree->vertices_at + vertex * OW_VERTEX_BYTES;
+    int64_t x = ow_read_i16(tree->bytes, at);
+    int64_t y = ow_read_i16(tree->bytes, at + 2);
+    int64_t z = ow_read_i16(tree->bytes, at + 4);
+    uint32_t shift = view->camera_shift - 8u;
+    return (struct ow_camera_point){
+        (int32_t)((view->right[0] * x + view->right[1] * y + view->right[2] * z +
+                   view->offset[0]) >> shift),
+        (int32_t)((view->up[0] * x + view->up[1] * y + view->up[2] * z + view->offset[1]) >>
+                  shift),
+        (int32_t)((view->forward[0] * x + view->forward[1] * y + view->forward[2] * z +
+                   view->offset[2]) >> shift),
+    };
+}
+
+/* How far from the axis a point at depth z may lie without being clipped. */
+static inline int64_t ow_reach(const struct ow_view *view, int32_t z)
+{
+    return view->projection == OW_PERSPECTIVE ? ((int64_t)z * view->limit) >> 16 : view->limit;
+}
+
+static inline bool ow_is_inside(const struct ow_view *view, struct ow_camera_point p)
+{
+    if (p.z < view->near_z) {
+        return false;
+    }
+    int64_t reach = ow_reach(view, p.z);
+    return p.x <= reach && -p.x <= reach && p.y <= reach && -p.y <= reach;
+}
+
+/* The place on the screen of a point that is inside, 1/16 pixels, rounded to the nearest. */
+static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
+                                                   struct ow_camera_point p)
+{
+    uint32_t factor = view->scale.mantissa;
+    int32_t shift = view->scale.exponent;
+    if (view->projection == OW_PERSPECTIVE) {
+        uint32_t zeros = ow_leading_zeros((uint32_t)p.z);
+        uint32_t reciprocal = ow_reciprocal((uint32_t)p.z << zeros);
+        factor = (uint32_t)(((uint64_t)factor * reciprocal) >> 32);
+        shift += 31 - (int32_t)zeros;
+    }
+    int64_t half = (int64_t)1 << (shift - 1);
+    int32_t x = (int32_t)(((int64_t)p.x * factor + half) >> shift);
+    int32_t y = (int32_t)(((int64_t)p.y * factor + half) >> shift);
+    return (struct ow_outline_point){8 * view->width + x, 8 * view->height - y};
+}
+
+#endif

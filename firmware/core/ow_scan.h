@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Stage "scan": a projected outline becomes spans of pixels.
+ *
+ * The pixel rule: a pixel belongs to a face if the winding number of the
+ * outline at the pixel's centre is positive (with OW_WINDING_ANY: not zero).
+ * An edge crosses the scan lines whose centres lie in [top, bottom) of it, at
+ * an x that is an exact function of its two endpoints; a centre on the edge
+ * counts as right of it. So two faces that share an edge share no pixel and
+ * leave none out.
+ */
+#ifndef OW_SCAN_H
+#define OW_SCAN_H
+
+#include <stdint.h>
+
+#include "ow_project.h"
+
+/* Pixels first .. end-1 of a scan line. */
+struct ow_span {
+    uint16_t line;
+    uint16_t first;
+    uint16_t end;
+};
+
+/* An edge on its way down the scan lines. Private to scan.c. */
+struct ow_scan_edge {
+    int32_t x;       /* first pixel whose centre is right of the edge on the current line */
+    uint32_t rest;   /* how far beyond, in 1/whole pixels */
+    uint32_t whole;  /* 16 * height of the edge in 1/16 pixels */
+    int32_t step;    /* pixels a line */
+    uint32_t part;   /* and 1/whole pixels a line */
+    int32_t line;    /* the current line */
+    int32_t end;     /* the first line below the edge */
+    int32_t winding; /* 1 if the outline goes down here (a left border), -1 if up */
+};
+
+enum ow_winding { OW_WINDING_POSITIVE, OW_WINDING_ANY };
+
+/* The part of the screen that is drawn. */
+struct ow_window {
+    int32_t first_line;
+    int32_t end_line;
+    int32_t width;
+};
+
+/* Receives spans: line by line, from left to right, at most capacity at a time. */
+struct ow_span_sink {
+    struct ow_span *spans;
+    uint32_t count;
+    uint32_t capacity; /* at least 1 */
+    void (*take)(struct ow_span_sink *sink); /* must set count to 0 */
+};
+
+/*
+ * Scans the outline points[0 .. count-1] (count >= 3, coordinates within
+ * OW_GUARD of the screen's centre) inside the window; whatever is left in the
+ * sink at the end is handed over. edges: count entries of scratch memory.
+ */
+void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
+             const struct ow_window *window, struct ow_scan_edge *edges,
+             struct ow_span_sink *sink);
+
+#endif

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Surfaces: who receives the spans, in walk order. Each is one file; draw.c
+ * chooses. All write the same picture.
+ */
+#ifndef OW_SURFACE_H
+#define OW_SURFACE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "ow_draw.h"
+#include "ow_scan.h"
+
+struct ow_surface {
+    struct ow_span_sink sink; /* first: the surface is found from its sink */
+    const struct ow_target *target;
+    uint32_t width;
+    uint32_t colour;           /* packed, of the face being scanned */
+    uint32_t pixels_written;
+    uint32_t spans_written;
+    uint32_t pixels_background;
+    /* Front to back: a bit for each pixel that nothing has been written to. */
+    uint32_t *unlit;
+    uint32_t words_in_line;
+    uint32_t lines_open; /* lines with unlit pixels */
+    uint16_t *open_pixels; /* unlit pixels of each line */
+};
+
+struct ow_surface_kind {
+    enum ow_direction direction;
+    void (*begin)(struct ow_surface *surface, uint32_t background);
+    void (*take)(struct ow_span_sink *sink);
+    bool (*is_full)(const struct ow_surface *surface); /* nothing more can be seen */
+    void (*end)(struct ow_surface *surface, uint32_t background);
+};
+
+extern const struct ow_surface_kind ow_surface_painter;
+extern const struct ow_surface_kind ow_surface_dynamic;
+
+static inline uint8_t *ow_line_pixels(const struct ow_target *target, uint32_t line)
+{
+    return target->pixels + (line - target->first_line) * target->stride;
+}
+
+/* Writes pixels first .. end-1 of a line of the target, in the surface's colour. */
+static inline void ow_write_run(struct ow_surface *surface, uint32_t line, uint32_t first,
+                                uint32_t end)
+{
+    surface->target->format->fill(ow_line_pixels(surface->target, line), first, end,
+                                  surface->colour);
+    surface->pixels_written += end - first;
+    surface->spans_written++;
+}
+
+#endif

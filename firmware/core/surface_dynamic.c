@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Surface: the dynamic screen, nearest first, each pixel written once [GC91].
+ * Where the paper keeps a list of unlit segments for each scan line, this keeps
+ * a bit for each pixel: its memory is bounded, and a span is tested a word at a
+ * time. A count for each line makes a full line cost one test, and a count of
+ * open lines ends the walk when the band is full.
+ */
+#include "ow_memory.h"
+#include "ow_surface.h"
+
+static uint32_t trailing_zeros(uint32_t word)
+{
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_ctz(word);
+#else
+    uint32_t n = 0;
+    while (!(word >> n & 1)) {
+        n++;
+    }
+    return n;
+#endif
+}
+
+/* Bits first .. 31. */
+static uint32_t bits_from(uint32_t first)
+{
+    return 0xFFFFFFFFu << first;
+}
+
+/* Bits 0 .. last. */
+static uint32_t bits_to(uint32_t last)
+{
+    return 0xFFFFFFFFu >> (31 - last);
+}
+
+static void begin(struct ow_surface *surface, uint32_t background)
+{
+    (void)background;
+    uint32_t lines = surface->target->line_count;
+    uint32_t words = surface->words_in_line;
+    memset(surface->unlit, 0xFF, (size_t)lines * words * sizeof *surface->unlit);
+    for (uint32_t i = 0; i < lines; i++) {
+        surface->open_pixels[i] = (uint16_t)surface->width;
+        surface->unlit[(i + 1) * words - 1] = bits_to((surface->width - 1) & 31);
+    }
+    surface->lines_open = lines;
+}
+
+/* The first pixel in from .. end-1 whose bit is not that of skip (0 or all ones); else end. */
+static uint32_t next_bit(const uint32_t *words, uint32_t from, uint32_t end, uint32_t skip)
+{
+    uint32_t w = from / 32;
+    uint32_t found = (words[w] ^ skip) & bits_from(from & 31);
+    while (found == 0) {
+        w++;
+        if (w * 32 >= end) {
+            return end;
+        }
+        found = words[w] ^ skip;
+    }
+    uint32_t x = w * 32 + trailing_zeros(found);
+    return x < end ? x : end;
+}
+
+static void clear_bits(uint32_t *words, uint32_t first, uint32_t end)
+{
+    uint32_t w = first / 32;
+    uint32_t last = (end - 1) / 32;
+    uint32_t mask = bits_from(first & 31);
+    for (; w < last; w++) {
+        words[w] &= ~mask;
+        mask = 0xFFFFFFFFu;
+    }
+    words[last] &= ~(mask & bits_to((end - 1) & 31));
+}
+
+/* Writes the unlit runs among pixels first .. end-1 of a line (first < end); they are lit then. */
+static void write_unlit(struct ow_surface *surface, uint32_t line, uint32_t *words, uint32_t first,
+                        uint32_t end)
+{
+    uint32_t x = next_bit(words, first, end, 0);
+    if (x == end) {
+        return;
+    }
+    while (x < end) {
+        uint32_t stop = next_bit(words, x, end, 0xFFFFFFFFu);
+        ow_write_run(surface, line, x, stop);
+        x = stop < end ? next_bit(words, stop, end, 0) : end;
+    }
+    clear_bits(words, first, end);
+}
+
+static void take(struct ow_span_sink *sink)
+{
+    struct ow_surface *surface = (struct ow_surface *)(void *)sink;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const struct ow_span *span = &sink->spans[i];
+        uint32_t row = span->line - (uint32_t)surface->target->first_line;
+        uint32_t open = surface->open_pixels[row];
+        if (open == 0) {
+            continue;
+        }
+        uint32_t before = surface->pixels_written;
+        write_unlit(surface, span->line, surface->unlit + row * surface->words_in_line,
+                    span->first, span->end);
+        open -= surface->pixels_written - before;
+        surface->open_pixels[row] = (uint16_t)open;
+        if (open == 0) {
+            surface->lines_open--;
+        }
+    }
+    sink->count = 0;
+}
+
+static bool is_full(const struct ow_surface *surface)
+{
+    return surface->lines_open == 0;
+}
+
+/* The background goes where nothing was written: no clear before, each pixel once. */
+static void end(struct ow_surface *surface, uint32_t background)
+{
+    uint32_t pixels = surface->pixels_written;
+    uint32_t spans = surface->spans_written;
+    surface->colour = background;
+    for (uint32_t row = 0; row < surface->target->line_count; row++) {
+        if (surface->open_pixels[row] > 0) {
+            write_unlit(surface, surface->target->first_line + row,
+                        surface->unlit + row * surface->words_in_line, 0, surface->width);
+        }
+    }
+    surface->pixels_background = surface->pixels_written - pixels;
+    surface->pixels_written = pixels;
+    surface->spans_written = spans;
+}
+
+const struct ow_surface_kind ow_surface_dynamic = {
+    .direction = OW_NEAREST_FIRST,
+    .begin = begin,
+    .take = take,
+    .is_full = is_full,
+    .end = end,
+};

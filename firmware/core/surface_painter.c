@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: 0BSD */
+/* Surface: the painter's, farthest first, each face over what was there [FKN80]. */
+#include "ow_surface.h"
+
+static void begin(struct ow_surface *surface, uint32_t background)
+{
+    const struct ow_target *target = surface->target;
+    for (uint32_t i = 0; i < target->line_count; i++) {
+        target->format->fill(target->pixels + i * target->stride, 0, surface->width, background);
+    }
+    surface->pixels_background = surface->width * target->line_count;
+}
+
+static void take(struct ow_span_sink *sink)
+{
+    struct ow_surface *surface = (struct ow_surface *)(void *)sink;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const struct ow_span *span = &sink->spans[i];
+        ow_write_run(surface, span->line, span->first, span->end);
+    }
+    sink->count = 0;
+}
+
+static bool is_full(const struct ow_surface *surface)
+{
+    (void)surface;
+    return false;
+}
+
+static void end(struct ow_surface *surface, uint32_t background)
+{
+    (void)surface;
+    (void)background;
+}
+
+const struct ow_surface_kind ow_surface_painter = {
+    .direction = OW_FARTHEST_FIRST,
+    .begin = begin,
+    .take = take,
+    .is_full = is_full,
+    .end = end,
+};

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * Stage "walk": one explicit stack, at most one entry a level. Items are read
+ * in runs; a node met in a run puts the rest of the run on the stack.
+ */
+#include "ow_walk.h"
+
+#include "ow_read.h"
+
+/*
+ * A stack entry is either the rest of a run (at: the next item, left: how many
+ * items) or a switch with work to do after its first child (at: its first word,
+ * left: one of these marks and the second child's place).
+ */
+enum {
+    PENDING_COPLANAR = 1 << 30,
+    PENDING_SECOND = 1 << 29,
+    SECOND_IS_BACK = 1 << 28,
+    PENDING = PENDING_COPLANAR | PENDING_SECOND
+};
+_Static_assert((int)OW_NODE_MAX_ITEMS < (int)SECOND_IS_BACK, "a run's length never looks like a mark");
+
+uint32_t ow_walk_stack_bytes(const struct ow_tree *tree)
+{
+    return tree->depth * (uint32_t)sizeof(struct ow_walk_entry);
+}
+
+/* Component i of a plane's normal; i = 0 .. 2. */
+static int64_t plane_normal(const uint8_t *bytes, uint32_t plane_at, uint32_t i)
+{
+    return (int32_t)(ow_read_u32(bytes, plane_at + 4 * i) << 8) >> 8;
+}
+
+static int64_t plane_distance(const uint8_t *bytes, uint32_t plane_at)
+{
+    int64_t high = (int64_t)ow_read_i8(bytes, plane_at + 7) * 256 + ow_read_u8(bytes, plane_at + 3);
+    return high * 4294967296 + ow_read_u32(bytes, plane_at + 12);
+}
+
+int ow_eye_side(const struct ow_tree *tree, const struct ow_view *view, uint32_t plane_at)
+{
+    bool perspective = view->projection == OW_PERSPECTIVE;
+    int64_t sum = perspective ? plane_distance(tree->bytes, plane_at) * 256 : 0;
+    for (uint32_t i = 0; i < 3; i++) {
+        int64_t towards = perspective ? view->eye[i] : -view->forward[i];
+        sum += plane_normal(tree->bytes, plane_at, i) * towards;
+    }
+    return (sum > 0) - (sum < 0);
+}
+
+static int32_t size_of(int32_t x)
+{
+    return x < 0 ? -x : x;
+}
+
+/*
+ * True if the face at this record surely looks away from the eye. The stored
+ * normal is rounded to 1/254 and, where the outline is not marked uneven, true
+ * to a quarter of a degree (1/229): together less than 1/127 of the distance,
+ * hence the sum of sizes below. The vertex is rounded to a lattice step; four are allowed for.
+ */
+static bool looks_away(const struct ow_tree *tree, const struct ow_view *view, uint32_t at,
+                       bool reverse)
+{
+    const uint8_t *bytes = tree->bytes;
+    if (ow_read_u16(bytes, at + 4) & OW_POLYGON_UNEVEN) {
+        return false;
+    }
+    int64_t sum = 0;
+    int64_t doubt = 0;
+    uint32_t corner_at = at + tree->corners_in_record;
+    uint32_t corner = (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(bytes, corner_at)
+                                                      : ow_read_u16(bytes, corner_at);
+    uint32_t vertex_at = tree->vertices_at + corner * OW_VERTEX_BYTES;
+    bool perspective = view->projection == OW_PERSPECTIVE;
+    for (uint32_t i = 0; i < 3; i++) {
+        int32_t towards = perspective ? view->eye[i] - ow_read_i16(bytes, vertex_at + 2 * i) * 256
+                                      : -view->forward[i];
+        sum += (int64_t)ow_read_i8(bytes, at + 1 + i) * towards;
+        doubt += size_of(towards);
+    }
+    doubt += perspective ? 127 * 4 * 256 : 0;
+    return reverse ? sum > doubt : sum < -doubt;
+}
+
+/* A node's first word, and where what follows word and bounds begins. */
+static uint32_t node_word(const uint8_t *bytes, uint32_t at, uint32_t *rest_at)
+{
+    uint32_t word = ow_read_u32(bytes, at);
+    *rest_at = at + OW_NODE_WORD_BYTES + ((word & OW_NODE_BOUNDED) ? OW_NODE_BOUNDS_BYTES : 0);
+    return word;
+}
+
+static void run(struct ow_walk *walk, uint32_t first_at, uint32_t count)
+{
+    uint32_t last_at = first_at + 4 * (count - 1);
+    walk->run_at = walk->direction == OW_FARTHEST_FIRST ? first_at : last_at;
+    walk->run_left = count;
+}
+
+/* One of a switch's children, 0 front and 1 back, as a run of one item; none: an empty run. */
+static void run_child(struct ow_walk *walk, uint32_t children_at, uint32_t child)
+{
+    uint32_t at = children_at + 4 * child;
+    walk->run_at = at;
+    walk->run_left = ow_read_u32(walk->tree->bytes, at) != OW_ITEM_NONE;
+}
+
+static void push(struct ow_walk *walk, uint32_t at, uint32_t left)
+{
+    walk->stack[walk->entries++] = (struct ow_walk_entry){at, left};
+}
+
+static void enter(struct ow_walk *walk, uint32_t at)
+{
+    uint32_t rest_at;
+    uint32_t word = node_word(walk->tree->bytes, at, &rest_at);
+    if ((word & OW_NODE_KIND_MASK) == OW_NODE_SEQUENCE) {
+        run(walk, rest_at, word >> OW_NODE_COUNT_SHIFT);
+        return;
+    }
+    int side = ow_eye_side(walk->tree, walk->view, rest_at + OW_SWITCH_CHILDREN_BYTES);
+    bool front_first = (side > 0) == (walk->direction == OW_NEAREST_FIRST);
+    push(walk, at, PENDING_COPLANAR | (front_first ? SECOND_IS_BACK : 0));
+    run_child(walk, rest_at, front_first ? 0 : 1);
+}
+
+enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
+                             const struct ow_view *view, enum ow_direction direction,
+                             enum ow_cull cull, struct ow_walk_entry *stack)
+{
+    bool two_sided = (tree->flags & OW_TREE_TWO_SIDED) != 0;
+    bool outline_decides = cull == OW_CULL_NONE && !two_sided;
+    if (outline_decides && !(tree->flags & OW_TREE_SWITCH_ONLY)) {
+        return OW_SIDES;
+    }
+    walk->tree = tree;
+    walk->view = view;
+    walk->stack = stack;
+    walk->entries = 0;
+    walk->faces_met = 0;
+    walk->direction = direction;
+    walk->fronts_only = cull == OW_CULL_BACK;
+    walk->reject_backs = !outline_decides;
+    enter(walk, tree->nodes_at);
+    return OW_OK;
+}
+
+/* Goes on with what the top of the stack says. */
+static void resume(struct ow_walk *walk)
+{
+    struct ow_walk_entry entry = walk->stack[--walk->entries];
+    if (!(entry.left & PENDING)) {
+        walk->run_at = entry.at;
+        walk->run_left = entry.left;
+        return;
+    }
+    uint32_t rest_at;
+    uint32_t word = node_word(walk->tree->bytes, entry.at, &rest_at);
+    if (entry.left & PENDING_COPLANAR) {
+        push(walk, entry.at, PENDING_SECOND | (entry.left & SECOND_IS_BACK));
+        run(walk, rest_at + OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES,
+            word >> OW_NODE_COUNT_SHIFT);
+    } else {
+        run_child(walk, rest_at, (entry.left & SECOND_IS_BACK) ? 1 : 0);
+    }
+}
+
+bool ow_walk_next(struct ow_walk *walk, struct ow_face *face)
+{
+    const struct ow_tree *tree = walk->tree;
+    uint32_t step = walk->direction == OW_FARTHEST_FIRST ? 4 : 0u - 4;
+    for (;;) {
+        while (walk->run_left > 0) {
+            uint32_t item = ow_read_u32(tree->bytes, walk->run_at);
+            walk->run_at += step;
+            walk->run_left--;
+            uint32_t value = item >> OW_ITEM_TAG_BITS;
+            if ((item & 3) == OW_ITEM_NODE) {
+                if (walk->run_left > 0) {
+                    push(walk, walk->run_at, walk->run_left);
+                }
+                enter(walk, tree->nodes_at + 4 * value);
+                continue;
+            }
+            walk->faces_met++;
+            face->reverse = (item & 3) == OW_ITEM_REVERSE;
+            face->at = tree->polygons_at + 2 * value;
+            if (!(face->reverse && walk->fronts_only) &&
+                !(walk->reject_backs && looks_away(tree, walk->view, face->at, face->reverse))) {
+                return true;
+            }
+        }
+        if (walk->entries == 0) {
+            return false;
+        }
+        resume(walk);
+    }
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: 0BSD */
+/* The memory of drawing: one block from the caller, cut into the stages' arrays. */
+#include "ow_memory.h"
+#include "ow_surface.h"
+
+enum { ALIGNMENT = 8 };
+
+/* Hands out parts of a block, or only counts while the block is NULL. */
+struct cutter {
+    uint8_t *block;
+    uint64_t used;
+};
+
+static void *cut(struct cutter *cutter, uint64_t count, uint64_t each)
+{
+    void *part = cutter->block ? cutter->block + cutter->used : NULL;
+    cutter->used += (count * each + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    return part;
+}
+
+/*
+ * Points of an outline after clipping. A convex outline gains at most one
+ * point a plane; a winding one as many as it crosses the plane, half its
+ * corners at most. Twice the corners and a few holds all but outlines that
+ * zigzag over several planes: those are dropped and counted.
+ */
+static uint32_t outline_capacity(const struct ow_tree *tree)
+{
+    return 2 * tree->max_corners + 8;
+}
+
+static uint32_t cache_entries(const struct ow_tree *tree, const struct ow_workspace_config *config)
+{
+    uint32_t entries = config->cached_vertices;
+    return entries == 0 || entries >= tree->vertex_count ? tree->vertex_count : entries;
+}
+
+static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree,
+                      const struct ow_workspace_config *config, void *memory)
+{
+    struct cutter cutter = {memory, 0};
+    uint32_t capacity = outline_capacity(tree);
+    uint32_t entries = cache_entries(tree, config);
+    uint32_t words = (config->width + 31u) / 32;
+    workspace->stack = cut(&cutter, ow_walk_stack_bytes(tree), 1);
+    workspace->cache = cut(&cutter, entries, sizeof *workspace->cache);
+    workspace->outline = cut(&cutter, capacity, sizeof *workspace->outline);
+    for (int i = 0; i < 2; i++) {
+        workspace->clip[i] = cut(&cutter, capacity, sizeof *workspace->clip[i]);
+    }
+    workspace->edges = cut(&cutter, capacity, sizeof *workspace->edges);
+    workspace->spans = cut(&cutter, config->lines, sizeof *workspace->spans);
+    workspace->open_pixels = cut(&cutter, config->lines, sizeof *workspace->open_pixels);
+    workspace->unlit = cut(&cutter, (uint64_t)words * config->lines, sizeof *workspace->unlit);
+    workspace->cache_entries = entries;
+    workspace->cache_mask = entries < tree->vertex_count ? entries - 1 : 0xFFFFFFFFu;
+    workspace->capacity = capacity;
+    workspace->width = config->width;
+    workspace->lines = config->lines;
+    return cutter.used;
+}
+
+static bool config_is_valid(const struct ow_workspace_config *config)
+{
+    return config->width >= 1 && config->width <= OW_SCREEN_MAX && config->lines >= 1 &&
+           config->lines <= OW_SCREEN_MAX &&
+           (config->cached_vertices & (config->cached_vertices - 1)) == 0;
+}
+
+uint32_t ow_workspace_bytes_needed(const struct ow_tree *tree,
+                                   const struct ow_workspace_config *config)
+{
+    struct ow_workspace counted;
+    if (!config_is_valid(config)) {
+        return 0;
+    }
+    uint64_t bytes = place(&counted, tree, config, NULL);
+    return bytes > 0xFFFFFFFFu ? 0 : (uint32_t)bytes;
+}
+
+enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct ow_tree *tree,
+                                  const struct ow_workspace_config *config, void *memory,
+                                  uint32_t bytes)
+{
+    uint32_t needed = ow_workspace_bytes_needed(tree, config);
+    if (needed == 0 || (uintptr_t)memory % ALIGNMENT != 0) {
+        return OW_ARGUMENT;
+    }
+    if (memory == NULL || bytes < needed) {
+        return OW_MEMORY;
+    }
+    (void)place(workspace, tree, config, memory);
+    memset(workspace->cache, 0, (size_t)workspace->cache_entries * sizeof *workspace->cache);
+    workspace->stamp = 0;
+    return OW_OK;
+}

@@ -14,6 +14,11 @@
 
 /* What one call of ow_draw works with. */
 struct frame {
+    struct ow_span_sink sink; /* first: the frame is found from its sink */
+    const struct ow_surface_kind *kind;
+    const struct ow_shader *shader;
+    struct ow_face face;
+    bool shaded; /* the surface has this face's colour */
     const struct ow_tree *tree;
     const struct ow_view *view;
     struct ow_workspace *workspace;
@@ -24,7 +29,7 @@ struct frame {
     struct ow_surface surface;
 };
 
-static uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
+static inline uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
 {
     uint32_t first = at + tree->corners_in_record;
     return (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(tree->bytes, first + 4 * i)
@@ -85,23 +90,33 @@ static uint32_t project_outline(struct frame *frame, const struct ow_face *face)
     return corners;
 }
 
-static void draw_faces(struct frame *frame, const struct ow_surface_kind *kind,
-                       const struct ow_shader *shader, struct ow_walk *walk,
-                       struct ow_stats *stats)
+/* A face is shaded when its first spans come: most small faces have none. */
+static void paint(struct ow_span_sink *sink)
+{
+    struct frame *frame = (struct frame *)(void *)sink;
+    struct ow_surface *surface = &frame->surface;
+    if (!frame->shaded) {
+        uint32_t colour = ow_shade_face(frame->shader, frame->tree, &frame->face);
+        surface->colour = surface->target->format->pack(colour);
+        frame->shaded = true;
+    }
+    frame->kind->take(surface, sink->spans, sink->count);
+    sink->count = 0;
+}
+
+static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stats *stats)
 {
     struct ow_workspace *workspace = frame->workspace;
     struct ow_surface *surface = &frame->surface;
-    struct ow_face face;
-    while (!kind->is_full(surface) && ow_walk_next(walk, &face)) {
-        uint32_t count = project_outline(frame, &face);
+    while (!frame->kind->is_full(surface) && ow_walk_next(walk, &frame->face)) {
+        uint32_t count = project_outline(frame, &frame->face);
         if (count == 0) {
             continue;
         }
         uint32_t before = surface->pixels_written;
-        surface->colour =
-            surface->target->format->pack(ow_shade_face(shader, frame->tree, &face));
+        frame->shaded = false;
         ow_scan(workspace->outline, count, frame->rule, &frame->window, workspace->edges,
-                &surface->sink);
+                &frame->sink);
         stats->polygons_painted += surface->pixels_written != before;
     }
 }
@@ -130,14 +145,10 @@ static uint32_t next_stamp(struct ow_workspace *workspace)
     return workspace->stamp << 24;
 }
 
-static void begin_surface(struct ow_surface *surface, const struct ow_surface_kind *kind,
-                          const struct ow_workspace *workspace, const struct ow_view *view,
-                          const struct ow_target *target)
+static void begin_surface(struct ow_surface *surface, const struct ow_workspace *workspace,
+                          const struct ow_view *view, const struct ow_target *target)
 {
     memset(surface, 0, sizeof *surface);
-    surface->sink.spans = workspace->spans;
-    surface->sink.capacity = workspace->lines;
-    surface->sink.take = kind->take;
     surface->target = target;
     surface->width = view->width;
     surface->unlit = workspace->unlit;
@@ -171,11 +182,14 @@ enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
     frame.rule = walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     frame.tag = next_stamp(workspace);
     frame.dropped = 0;
-    begin_surface(&frame.surface, kind, workspace, view, target);
+    frame.kind = kind;
+    frame.shader = &shader;
+    frame.sink = (struct ow_span_sink){workspace->spans, 0, workspace->lines, paint};
+    begin_surface(&frame.surface, workspace, view, target);
     ow_shader_make(&shader, look, view);
     uint32_t background = target->format->pack(look->background);
     kind->begin(&frame.surface, background);
-    draw_faces(&frame, kind, &shader, &walk, &counted);
+    draw_faces(&frame, &walk, &counted);
     kind->end(&frame.surface, background);
     counted.polygons_visited = walk.faces_met;
     counted.pixels_written = frame.surface.pixels_written;

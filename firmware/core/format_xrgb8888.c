@@ -12,8 +12,16 @@ static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
 {
     ow_word32 *pixel = (ow_word32 *)(void *)row;
     uint32_t word = ow_little32(value);
-    for (uint32_t x = first; x < end; x++) {
-        pixel[x] = word;
+    if ((first & 1) && first < end) {
+        pixel[first++] = word;
+    }
+    ow_word64 *pair = (ow_word64 *)(void *)(pixel + first);
+    ow_word64 both = (ow_word64)word << 32 | word;
+    for (; first + 2 <= end; first += 2) {
+        *pair++ = both;
+    }
+    if (first < end) {
+        pixel[first] = word;
     }
 }
 

@@ -13,9 +13,11 @@ void *memcpy(void *restrict to, const void *restrict from, size_t bytes);
 void *memset(void *to, int value, size_t bytes);
 
 #if defined(__GNUC__)
+typedef uint64_t __attribute__((__may_alias__, __aligned__(4))) ow_word64;
 typedef uint32_t __attribute__((__may_alias__)) ow_word32;
 typedef uint16_t __attribute__((__may_alias__)) ow_word16;
 #else
+typedef uint64_t ow_word64;
 typedef uint32_t ow_word32;
 typedef uint16_t ow_word16;
 #endif

@@ -20,7 +20,8 @@ static inline int32_t ow_read_i8(const uint8_t *bytes, uint32_t at)
 
 static inline uint32_t ow_read_u16(const uint8_t *bytes, uint32_t at)
 {
-    return (uint32_t)bytes[at] | (uint32_t)bytes[at + 1] << 8;
+    const uint8_t *p = bytes + at; /* not at + 1: that could wrap, and the loads would not join */
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8;
 }
 
 static inline int32_t ow_read_i16(const uint8_t *bytes, uint32_t at)
@@ -30,8 +31,8 @@ static inline int32_t ow_read_i16(const uint8_t *bytes, uint32_t at)
 
 static inline uint32_t ow_read_u32(const uint8_t *bytes, uint32_t at)
 {
-    return (uint32_t)bytes[at] | (uint32_t)bytes[at + 1] << 8 | (uint32_t)bytes[at + 2] << 16 |
-           (uint32_t)bytes[at + 3] << 24;
+    const uint8_t *p = bytes + at;
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
 #endif

@@ -48,14 +48,15 @@ struct ow_window {
 struct ow_span_sink {
     struct ow_span *spans;
     uint32_t count;
-    uint32_t capacity; /* at least 1 */
+    uint32_t capacity; /* at least the window's lines */
     void (*take)(struct ow_span_sink *sink); /* must set count to 0 */
 };
 
 /*
  * Scans the outline points[0 .. count-1] (count >= 3, coordinates within
- * OW_GUARD of the screen's centre) inside the window; whatever is left in the
- * sink at the end is handed over. edges: count entries of scratch memory.
+ * OW_GUARD of the screen's centre) inside the window. The sink must be empty;
+ * all its spans have been taken at the end. edges: count entries of scratch
+ * memory.
  */
 void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
              const struct ow_window *window, struct ow_scan_edge *edges,

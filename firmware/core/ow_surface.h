@@ -13,7 +13,6 @@
 #include "ow_scan.h"
 
 struct ow_surface {
-    struct ow_span_sink sink; /* first: the surface is found from its sink */
     const struct ow_target *target;
     uint32_t width;
     uint32_t colour;           /* packed, of the face being scanned */
@@ -30,7 +29,8 @@ struct ow_surface {
 struct ow_surface_kind {
     enum ow_direction direction;
     void (*begin)(struct ow_surface *surface, uint32_t background);
-    void (*take)(struct ow_span_sink *sink);
+    /* Writes count spans of one face in the surface's colour. */
+    void (*take)(struct ow_surface *surface, const struct ow_span *spans, uint32_t count);
     bool (*is_full)(const struct ow_surface *surface); /* nothing more can be seen */
     void (*end)(struct ow_surface *surface, uint32_t background);
 };

@@ -98,21 +98,35 @@ static inline void next_line(struct ow_scan_edge *edge)
     }
 }
 
-static inline void put_span(struct ow_span_sink *sink, int32_t line, int32_t first, int32_t end,
+/* Adds pixels first .. end-1, cut to the width. The sink must have room. */
+static inline void add_span(struct ow_span_sink *sink, int32_t line, int32_t first, int32_t end,
                             int32_t width)
 {
     first = first < 0 ? 0 : first;
     end = end > width ? width : end;
-    if (first >= end) {
-        return;
+    if (first < end) {
+        struct ow_span *span = &sink->spans[sink->count++];
+        span->line = (uint16_t)line;
+        span->first = (uint16_t)first;
+        span->end = (uint16_t)end;
     }
-    struct ow_span *span = &sink->spans[sink->count++];
-    span->line = (uint16_t)line;
-    span->first = (uint16_t)first;
-    span->end = (uint16_t)end;
-    if (sink->count == sink->capacity) {
-        sink->take(sink);
+}
+
+/* The lines between two edges from line to stop; both edges stand on line. */
+static inline int32_t add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right,
+                                enum ow_winding rule, int32_t line, int32_t stop, int32_t width,
+                                struct ow_span_sink *sink)
+{
+    for (; line < stop; line++) {
+        if (left->x < right->x) {
+            add_span(sink, line, left->x, right->x, width);
+        } else if (rule == OW_WINDING_ANY) {
+            add_span(sink, line, right->x, left->x, width);
+        }
+        next_line(left);
+        next_line(right);
     }
+    return line;
 }
 
 /* One of the two chains from the top to the bottom: which point comes next. */
@@ -155,15 +169,7 @@ static void scan_chains(const struct ow_outline_point *points, uint32_t count, u
             return;
         }
         int32_t stop = left.edge.end < right.edge.end ? left.edge.end : right.edge.end;
-        for (; line < stop; line++) {
-            if (left.edge.x < right.edge.x) {
-                put_span(sink, line, left.edge.x, right.edge.x, width);
-            } else if (rule == OW_WINDING_ANY) {
-                put_span(sink, line, right.edge.x, left.edge.x, width);
-            }
-            next_line(&left.edge);
-            next_line(&right.edge);
-        }
+        line = add_lines(&left.edge, &right.edge, rule, line, stop, width, sink);
     }
 }
 
@@ -195,7 +201,10 @@ static void wind_line(const struct ow_scan_edge *edges, uint32_t active, enum ow
         if (now && !inside) {
             first = x;
         } else if (!now && inside) {
-            put_span(sink, line, first, x, width);
+            add_span(sink, line, first, x, width);
+            if (sink->count == sink->capacity) {
+                sink->take(sink);
+            }
         }
         inside = now;
     }
@@ -244,30 +253,6 @@ static void scan_windings(const struct ow_outline_point *points, uint32_t count,
     }
 }
 
-/* Where the outline lies. */
-struct shape {
-    ow_sub4 min_x, max_x, min_y, max_y;
-    uint32_t top, bottom;
-};
-
-static struct shape measure(const struct ow_outline_point *points, uint32_t count)
-{
-    struct shape s = {points[0].x, points[0].x, points[0].y, points[0].y, 0, 0};
-    for (uint32_t i = 1; i < count; i++) {
-        s.min_x = points[i].x < s.min_x ? points[i].x : s.min_x;
-        s.max_x = points[i].x > s.max_x ? points[i].x : s.max_x;
-        if (points[i].y < s.min_y) {
-            s.min_y = points[i].y;
-            s.top = i;
-        }
-        if (points[i].y > s.max_y) {
-            s.max_y = points[i].y;
-            s.bottom = i;
-        }
-    }
-    return s;
-}
-
 static bool goes_down_once(const struct ow_outline_point *points, uint32_t count, uint32_t top,
                            uint32_t bottom)
 {
@@ -286,36 +271,111 @@ static bool goes_down_once(const struct ow_outline_point *points, uint32_t count
     return true;
 }
 
-/* True if a triangle's outline has no positive winding. */
-static bool is_back(const struct ow_outline_point *p)
+/* Positive if b lies right of the line that goes down from a to c. */
+static inline int64_t side_of(struct ow_outline_point a, struct ow_outline_point b,
+                              struct ow_outline_point c)
 {
-    int64_t cross = (int64_t)(p[1].x - p[0].x) * (p[2].y - p[0].y) -
-                    (int64_t)(p[2].x - p[0].x) * (p[1].y - p[0].y);
-    return cross >= 0;
+    return (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
+}
+
+static inline void swap_if_above(struct ow_outline_point *a, struct ow_outline_point *b,
+                                 int64_t *side)
+{
+    if (b->y < a->y) {
+        struct ow_outline_point swap = *a;
+        *a = *b;
+        *b = swap;
+        *side = -*side;
+    }
+}
+
+/* One edge from top to bottom on one side, two on the other. */
+static void scan_triangle(const struct ow_outline_point *points, enum ow_winding rule,
+                          const struct ow_window *window, struct ow_span_sink *sink)
+{
+    struct ow_outline_point a = points[0];
+    struct ow_outline_point b = points[1];
+    struct ow_outline_point c = points[2];
+    int64_t side = side_of(a, b, c);
+    if (side >= 0 && rule == OW_WINDING_POSITIVE) {
+        return; /* a back, or nothing */
+    }
+    swap_if_above(&a, &b, &side);
+    swap_if_above(&b, &c, &side);
+    swap_if_above(&a, &b, &side);
+    int32_t line = first_centre(a.y);
+    int32_t end_line = first_centre(c.y);
+    line = line < window->first_line ? window->first_line : line;
+    end_line = end_line > window->end_line ? window->end_line : end_line;
+    struct ow_scan_edge whole;
+    struct ow_scan_edge part;
+    if (line >= end_line || !begin_edge(&whole, a, c, line, end_line)) {
+        return;
+    }
+    struct ow_scan_edge *left = side > 0 ? &whole : &part;
+    struct ow_scan_edge *right = side > 0 ? &part : &whole;
+    if (begin_edge(&part, a, b, line, end_line)) {
+        line = add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, window->width, sink);
+    }
+    if (begin_edge(&part, b, c, line, end_line)) {
+        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, window->width, sink);
+    }
+}
+
+/* True if the outline holds no pixel's centre of the window, by its bounds alone. */
+static inline bool is_nowhere(const struct ow_outline_point *points, uint32_t count,
+                              const struct ow_window *window)
+{
+    ow_sub4 min_x = points[0].x;
+    ow_sub4 max_x = min_x;
+    ow_sub4 min_y = points[0].y;
+    ow_sub4 max_y = min_y;
+    for (uint32_t i = 1; i < count; i++) {
+        min_x = points[i].x < min_x ? points[i].x : min_x;
+        max_x = points[i].x > max_x ? points[i].x : max_x;
+        min_y = points[i].y < min_y ? points[i].y : min_y;
+        max_y = points[i].y > max_y ? points[i].y : max_y;
+    }
+    int32_t left = first_centre(min_x);
+    int32_t right = first_centre(max_x);
+    int32_t line = first_centre(min_y);
+    int32_t end_line = first_centre(max_y);
+    return left >= right || line >= end_line || right <= 0 || left >= window->width ||
+           end_line <= window->first_line || line >= window->end_line;
+}
+
+static void scan_outline(const struct ow_outline_point *points, uint32_t count,
+                         enum ow_winding rule, const struct ow_window *window,
+                         struct ow_scan_edge *edges, struct ow_span_sink *sink)
+{
+    uint32_t top = 0;
+    uint32_t bottom = 0;
+    for (uint32_t i = 1; i < count; i++) {
+        top = points[i].y < points[top].y ? i : top;
+        bottom = points[i].y > points[bottom].y ? i : bottom;
+    }
+    int32_t line = first_centre(points[top].y);
+    int32_t end_line = first_centre(points[bottom].y);
+    line = line < window->first_line ? window->first_line : line;
+    end_line = end_line > window->end_line ? window->end_line : end_line;
+    if (goes_down_once(points, count, top, bottom)) {
+        scan_chains(points, count, top, bottom, rule, line, end_line, window->width, sink);
+    } else {
+        scan_windings(points, count, rule, line, end_line, window->width, edges, sink);
+    }
 }
 
 void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
              const struct ow_window *window, struct ow_scan_edge *edges,
              struct ow_span_sink *sink)
 {
-    if (count == 3 && rule == OW_WINDING_POSITIVE && is_back(points)) {
+    if (is_nowhere(points, count, window)) {
         return;
     }
-    struct shape shape = measure(points, count);
-    int32_t line = first_centre(shape.min_y);
-    int32_t end_line = first_centre(shape.max_y);
-    line = line < window->first_line ? window->first_line : line;
-    end_line = end_line > window->end_line ? window->end_line : end_line;
-    int32_t left = first_centre(shape.min_x);
-    int32_t right = first_centre(shape.max_x);
-    if (line >= end_line || left >= right || right <= 0 || left >= window->width) {
-        return;
-    }
-    if (count == 3 || goes_down_once(points, count, shape.top, shape.bottom)) {
-        scan_chains(points, count, shape.top, shape.bottom, rule, line, end_line, window->width,
-                    sink);
+    if (count == 3) {
+        scan_triangle(points, rule, window, sink);
     } else {
-        scan_windings(points, count, rule, line, end_line, window->width, edges, sink);
+        scan_outline(points, count, rule, window, edges, sink);
     }
     if (sink->count > 0) {
         sink->take(sink);

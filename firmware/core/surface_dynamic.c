@@ -91,11 +91,10 @@ static void write_unlit(struct ow_surface *surface, uint32_t line, uint32_t *wor
     clear_bits(words, first, end);
 }
 
-static void take(struct ow_span_sink *sink)
+static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)
 {
-    struct ow_surface *surface = (struct ow_surface *)(void *)sink;
-    for (uint32_t i = 0; i < sink->count; i++) {
-        const struct ow_span *span = &sink->spans[i];
+    for (uint32_t i = 0; i < count; i++) {
+        const struct ow_span *span = &spans[i];
         uint32_t row = span->line - (uint32_t)surface->target->first_line;
         uint32_t open = surface->open_pixels[row];
         if (open == 0) {
@@ -110,7 +109,6 @@ static void take(struct ow_span_sink *sink)
             surface->lines_open--;
         }
     }
-    sink->count = 0;
 }
 
 static bool is_full(const struct ow_surface *surface)

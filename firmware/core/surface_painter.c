@@ -11,14 +11,12 @@ static void begin(struct ow_surface *surface, uint32_t background)
     surface->pixels_background = surface->width * target->line_count;
 }
 
-static void take(struct ow_span_sink *sink)
+static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)
 {
-    struct ow_surface *surface = (struct ow_surface *)(void *)sink;
-    for (uint32_t i = 0; i < sink->count; i++) {
-        const struct ow_span *span = &sink->spans[i];
+    for (uint32_t i = 0; i < count; i++) {
+        const struct ow_span *span = &spans[i];
         ow_write_run(surface, span->line, span->first, span->end);
     }
-    sink->count = 0;
 }
 
 static bool is_full(const struct ow_surface *surface)

@@ -48,39 +48,45 @@ int ow_eye_side(const struct ow_tree *tree, const struct ow_view *view, uint32_t
     return (sum > 0) - (sum < 0);
 }
 
-static int32_t size_of(int32_t x)
-{
-    return x < 0 ? -x : x;
-}
-
 /*
- * True if the face at this record surely looks away from the eye. The stored
- * normal is rounded to 1/254 and, where the outline is not marked uneven, true
- * to a quarter of a degree (1/229): together less than 1/127 of the distance,
- * hence the sum of sizes below. The vertex is rounded to a lattice step; four are allowed for.
+ * Prepares looks_away. A stored normal is 127 long, rounded by at most 1/2 in
+ * each component, and true to a quarter of a degree (127/229) where the outline
+ * is not marked uneven: with all rounding of the eye and the vertex the sum of
+ * products is off by less than 1.25 times the sum of the sizes, taken here at
+ * their largest in the cube, and four lattice steps.
  */
-static bool looks_away(const struct ow_tree *tree, const struct ow_view *view, uint32_t at,
-                       bool reverse)
+static void make_facing(struct ow_walk *walk, const struct ow_view *view)
 {
-    const uint8_t *bytes = tree->bytes;
-    if (ow_read_u16(bytes, at + 4) & OW_POLYGON_UNEVEN) {
-        return false;
+    bool perspective = view->projection == OW_PERSPECTIVE;
+    int32_t sizes = 0;
+    for (int i = 0; i < 3; i++) {
+        int32_t towards = perspective ? view->eye[i] >> 8 : -(view->forward[i] >> 10);
+        walk->towards[i] = towards;
+        sizes += (towards < 0 ? -towards : towards) + (perspective ? OW_LATTICE_MAX + 1 : 1);
     }
-    int64_t sum = 0;
-    int64_t doubt = 0;
+    walk->from_vertex = perspective ? -1 : 0;
+    walk->doubt = sizes + sizes / 4 + (perspective ? 4 * 127 : 0);
+}
+_Static_assert(3LL * 127 * ((OW_EYE_MAX >> 8) + OW_LATTICE_MAX + 1) < INT32_MAX,
+               "looks_away's sum fits 32 bits");
+
+/* True if the face at this record surely looks away from the eye. */
+static inline bool looks_away(const struct ow_walk *walk, uint32_t at, bool reverse)
+{
+    const struct ow_tree *tree = walk->tree;
+    const uint8_t *bytes = tree->bytes;
     uint32_t corner_at = at + tree->corners_in_record;
     uint32_t corner = (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(bytes, corner_at)
                                                       : ow_read_u16(bytes, corner_at);
     uint32_t vertex_at = tree->vertices_at + corner * OW_VERTEX_BYTES;
-    bool perspective = view->projection == OW_PERSPECTIVE;
-    for (uint32_t i = 0; i < 3; i++) {
-        int32_t towards = perspective ? view->eye[i] - ow_read_i16(bytes, vertex_at + 2 * i) * 256
-                                      : -view->forward[i];
-        sum += (int64_t)ow_read_i8(bytes, at + 1 + i) * towards;
-        doubt += size_of(towards);
-    }
-    doubt += perspective ? 127 * 4 * 256 : 0;
-    return reverse ? sum > doubt : sum < -doubt;
+    int32_t mask = walk->from_vertex;
+    int32_t x = walk->towards[0] - (ow_read_i16(bytes, vertex_at) & mask);
+    int32_t y = walk->towards[1] - (ow_read_i16(bytes, vertex_at + 2) & mask);
+    int32_t z = walk->towards[2] - (ow_read_i16(bytes, vertex_at + 4) & mask);
+    int32_t sum = ow_read_i8(bytes, at + 1) * x + ow_read_i8(bytes, at + 2) * y +
+                  ow_read_i8(bytes, at + 3) * z;
+    return (reverse ? sum > walk->doubt : sum < -walk->doubt) &&
+           !(ow_read_u16(bytes, at + 4) & OW_POLYGON_UNEVEN);
 }
 
 /* A node's first word, and where what follows word and bounds begins. */
@@ -142,6 +148,7 @@ enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
     walk->direction = direction;
     walk->fronts_only = cull == OW_CULL_BACK;
     walk->reject_backs = !outline_decides;
+    make_facing(walk, view);
     enter(walk, tree->nodes_at);
     return OW_OK;
 }
@@ -187,7 +194,7 @@ bool ow_walk_next(struct ow_walk *walk, struct ow_face *face)
             face->reverse = (item & 3) == OW_ITEM_REVERSE;
             face->at = tree->polygons_at + 2 * value;
             if (!(face->reverse && walk->fronts_only) &&
-                !(walk->reject_backs && looks_away(tree, walk->view, face->at, face->reverse))) {
+                !(walk->reject_backs && looks_away(walk, face->at, face->reverse))) {
                 return true;
             }
         }

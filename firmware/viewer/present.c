@@ -32,7 +32,7 @@ static int draw_band(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride,
         .format = viewer->panel.format,
     };
     probe(viewer, OW_PROBE_DRAW_BEGIN);
-    enum ow_status status = ow_draw(viewer->config.tree, &viewer->view, &viewer->config.look,
+    enum ow_status status = ow_draw(viewer->config.tree, &viewer->view, &viewer->look,
                                     &target, &viewer->workspace, &stats);
     probe(viewer, OW_PROBE_DRAW_END);
     add_stats(&viewer->stats, &stats);

@@ -62,6 +62,16 @@ static void turn_view(struct ow_view *view)
     view->height = width;
 }
 
+/* A light that moves with the viewer is given along the view's axes. */
+static void turn_light(struct ow_light *light)
+{
+    if (!light->in_model_space) {
+        int16_t right = light->direction_q14[0];
+        light->direction_q14[0] = light->direction_q14[1];
+        light->direction_q14[1] = (int16_t)-right;
+    }
+}
+
 int viewer_make_view(struct ow_viewer *viewer)
 {
     struct ow_camera camera = viewer->config.camera;
@@ -73,8 +83,10 @@ int viewer_make_view(struct ow_viewer *viewer)
         return status;
     }
     status = ow_view_make(&viewer->view, &camera);
+    viewer->look = viewer->config.look;
     for (uint8_t i = 0; status == OW_OK && i < viewer->turned; i++) {
         turn_view(&viewer->view);
+        turn_light(&viewer->look.light);
     }
     return status;
 }

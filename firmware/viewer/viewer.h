@@ -99,6 +99,7 @@ struct ow_viewer {
     struct ow_view view;   /* of the last frame, turned as the panel needs it */
     struct ow_stats stats; /* of the last frame */
 
+    struct ow_look look; /* the configured one, its light turned with the picture */
     struct ow_viewer_config config;
     struct ow_panel_info panel;
     struct ow_workspace workspace;

@@ -88,16 +88,6 @@ static inline bool begin_edge(struct ow_scan_edge *edge, struct ow_outline_point
     return true;
 }
 
-static inline void next_line(struct ow_scan_edge *edge)
-{
-    edge->x += edge->step;
-    edge->rest += edge->part;
-    if (edge->rest >= edge->whole) {
-        edge->rest -= edge->whole;
-        edge->x++;
-    }
-}
-
 /* Adds pixels first .. end-1, cut to the width. The sink must have room. */
 static inline void add_span(struct ow_span_sink *sink, int32_t line, int32_t first, int32_t end,
                             int32_t width)
@@ -112,21 +102,59 @@ static inline void add_span(struct ow_span_sink *sink, int32_t line, int32_t fir
     }
 }
 
-/* The lines between two edges from line to stop; both edges stand on line. */
-static inline int32_t add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right,
-                                enum ow_winding rule, int32_t line, int32_t stop, int32_t width,
-                                struct ow_span_sink *sink)
+/* One line down: whole pixels and parts, without a branch. */
+#define NEXT_LINE(x, rest, edge)                                                                  \
+    do {                                                                                          \
+        (rest) += (edge).part;                                                                    \
+        uint32_t carry_ = (rest) >= (edge).whole;                                                 \
+        (rest) -= (edge).whole & (0u - carry_);                                                   \
+        (x) += (edge).step + (int32_t)carry_;                                                     \
+    } while (0)
+
+/*
+ * The lines between two edges from line to stop; both edges stand on line.
+ * The places are copied so that the loop works in registers.
+ */
+static void add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right, enum ow_winding rule,
+                      int32_t line, int32_t stop, int32_t width, struct ow_span_sink *sink)
 {
-    for (; line < stop; line++) {
-        if (left->x < right->x) {
-            add_span(sink, line, left->x, right->x, width);
-        } else if (rule == OW_WINDING_ANY) {
-            add_span(sink, line, right->x, left->x, width);
+    const struct ow_scan_edge l = *left;
+    const struct ow_scan_edge r = *right;
+    int32_t left_x = l.x;
+    int32_t right_x = r.x;
+    uint32_t left_rest = l.rest;
+    uint32_t right_rest = r.rest;
+    struct ow_span *span = sink->spans + sink->count;
+    for (;;) {
+        int32_t first = left_x;
+        int32_t end = right_x;
+        if (first > end && rule == OW_WINDING_ANY) {
+            first = right_x;
+            end = left_x;
         }
-        next_line(left);
-        next_line(right);
+        first = first < 0 ? 0 : first;
+        end = end > width ? width : end;
+        if (first < end) {
+            *span++ = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
+        }
+        if (++line == stop) {
+            break;
+        }
+        NEXT_LINE(left_x, left_rest, l);
+        NEXT_LINE(right_x, right_rest, r);
     }
-    return line;
+    /* An edge that goes on has its step: it has more than one line. */
+    if (left->end > stop) {
+        NEXT_LINE(left_x, left_rest, l);
+        left->x = left_x;
+        left->rest = left_rest;
+    }
+    if (right->end > stop) {
+        NEXT_LINE(right_x, right_rest, r);
+        right->x = right_x;
+        right->rest = right_rest;
+    }
+    sink->count = (uint32_t)(span - sink->spans);
 }
 
 /* One of the two chains from the top to the bottom: which point comes next. */
@@ -169,7 +197,8 @@ static void scan_chains(const struct ow_outline_point *points, uint32_t count, u
             return;
         }
         int32_t stop = left.edge.end < right.edge.end ? left.edge.end : right.edge.end;
-        line = add_lines(&left.edge, &right.edge, rule, line, stop, width, sink);
+        add_lines(&left.edge, &right.edge, rule, line, stop, width, sink);
+        line = stop;
     }
 }
 
@@ -242,7 +271,8 @@ static void scan_windings(const struct ow_outline_point *points, uint32_t count,
                 if (kept != i) {
                     edges[kept] = edges[i];
                 }
-                next_line(&edges[kept++]);
+                NEXT_LINE(edges[kept].x, edges[kept].rest, edges[kept]);
+                kept++;
             }
         }
         for (uint32_t i = active; i < used; i++) {
@@ -278,70 +308,151 @@ static inline int64_t side_of(struct ow_outline_point a, struct ow_outline_point
     return (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
 }
 
-static inline void swap_if_above(struct ow_outline_point *a, struct ow_outline_point *b,
-                                 int64_t *side)
+static inline void swap_if_above(struct ow_outline_point *a, struct ow_outline_point *b)
 {
     if (b->y < a->y) {
         struct ow_outline_point swap = *a;
         *a = *b;
         *b = swap;
-        *side = -*side;
+    }
+}
+
+/* Whole pixels, from the first to before the end on each axis. */
+struct box {
+    int32_t left, right, line, end_line;
+};
+
+static inline bool box_is_empty(const struct box *box)
+{
+    return box->line >= box->end_line || box->left >= box->right;
+}
+
+/* The pixels of the window whose centres are inside the bounds of these points. */
+static inline struct box box_of(ow_sub4 min_x, ow_sub4 max_x, ow_sub4 min_y, ow_sub4 max_y,
+                                const struct ow_window *window)
+{
+    struct box box = {first_centre(min_x), first_centre(max_x), first_centre(min_y),
+                      first_centre(max_y)};
+    box.left = box.left < 0 ? 0 : box.left;
+    box.right = box.right > window->width ? window->width : box.right;
+    box.line = box.line < window->first_line ? window->first_line : box.line;
+    box.end_line = box.end_line > window->end_line ? window->end_line : box.end_line;
+    return box;
+}
+
+/* An edge as a half plane: not negative at the pixel centres that are on its inner side. */
+struct half_plane {
+    int32_t value; /* at the line's first pixel */
+    int32_t right; /* what a pixel to the right adds */
+    int32_t down;  /* what a line down adds */
+};
+
+/* Centres on the edge are inside where they count as right of it or below it. */
+static inline struct half_plane half_plane(struct ow_outline_point p, struct ow_outline_point q,
+                                           int32_t x, int32_t y)
+{
+    int32_t dx = q.x - p.x;
+    int32_t dy = q.y - p.y;
+    int32_t on_edge = dy > 0 || (dy == 0 && dx < 0) ? 0 : 1;
+    return (struct half_plane){dy * (x - p.x) - dx * (y - p.y) - on_edge, SUB * dy, -SUB * dx};
+}
+
+/* A few pixels: each is held against the three edges; no division. Fronts only. */
+static void scan_small_triangle(const struct ow_outline_point *p, const struct box *box,
+                                struct ow_span_sink *sink)
+{
+    int32_t x = box->left * SUB + HALF;
+    int32_t y = box->line * SUB + HALF;
+    struct half_plane a = half_plane(p[0], p[1], x, y);
+    struct half_plane b = half_plane(p[1], p[2], x, y);
+    struct half_plane c = half_plane(p[2], p[0], x, y);
+    for (int32_t line = box->line; line < box->end_line; line++) {
+        int32_t va = a.value;
+        int32_t vb = b.value;
+        int32_t vc = c.value;
+        int32_t first = box->left;
+        for (; first < box->right && (va | vb | vc) < 0; first++) {
+            va += a.right;
+            vb += b.right;
+            vc += c.right;
+        }
+        int32_t end = first;
+        for (; end < box->right && (va | vb | vc) >= 0; end++) {
+            va += a.right;
+            vb += b.right;
+            vc += c.right;
+        }
+        if (first < end) {
+            sink->spans[sink->count++] =
+                (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
+        }
+        a.value += a.down;
+        b.value += b.down;
+        c.value += c.down;
     }
 }
 
 /* One edge from top to bottom on one side, two on the other. */
-static void scan_triangle(const struct ow_outline_point *points, enum ow_winding rule,
-                          const struct ow_window *window, struct ow_span_sink *sink)
+static void scan_triangle(struct ow_outline_point a, struct ow_outline_point b,
+                          struct ow_outline_point c, const struct box *box, int32_t width,
+                          struct ow_span_sink *sink)
 {
-    struct ow_outline_point a = points[0];
-    struct ow_outline_point b = points[1];
-    struct ow_outline_point c = points[2];
-    int64_t side = side_of(a, b, c);
-    if (side >= 0 && rule == OW_WINDING_POSITIVE) {
-        return; /* a back, or nothing */
-    }
-    swap_if_above(&a, &b, &side);
-    swap_if_above(&b, &c, &side);
-    swap_if_above(&a, &b, &side);
-    int32_t line = first_centre(a.y);
-    int32_t end_line = first_centre(c.y);
-    line = line < window->first_line ? window->first_line : line;
-    end_line = end_line > window->end_line ? window->end_line : end_line;
+    swap_if_above(&a, &b);
+    swap_if_above(&b, &c);
+    swap_if_above(&a, &b);
+    bool b_is_right = side_of(a, b, c) > 0;
+    int32_t line = box->line;
     struct ow_scan_edge whole;
     struct ow_scan_edge part;
-    if (line >= end_line || !begin_edge(&whole, a, c, line, end_line)) {
-        return;
+    struct ow_scan_edge *left = b_is_right ? &whole : &part;
+    struct ow_scan_edge *right = b_is_right ? &part : &whole;
+    (void)begin_edge(&whole, a, c, line, box->end_line);
+    if (begin_edge(&part, a, b, line, box->end_line)) {
+        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, width, sink);
+        line = part.end;
     }
-    struct ow_scan_edge *left = side > 0 ? &whole : &part;
-    struct ow_scan_edge *right = side > 0 ? &part : &whole;
-    if (begin_edge(&part, a, b, line, end_line)) {
-        line = add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, window->width, sink);
-    }
-    if (begin_edge(&part, b, c, line, end_line)) {
-        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, window->width, sink);
+    if (begin_edge(&part, b, c, line, box->end_line)) {
+        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, width, sink);
     }
 }
 
-/* True if the outline holds no pixel's centre of the window, by its bounds alone. */
-static inline bool is_nowhere(const struct ow_outline_point *points, uint32_t count,
-                              const struct ow_window *window)
+enum {
+    SMALL_WIDTH = 8, /* pixels: up to here testing each is cheaper than stepping edges */
+    SMALL_EDGE = 64 * SUB /* 1/16 pixels: keeps half planes within 32 bits by far */
+};
+
+static inline ow_sub4 least(ow_sub4 a, ow_sub4 b)
 {
-    ow_sub4 min_x = points[0].x;
-    ow_sub4 max_x = min_x;
-    ow_sub4 min_y = points[0].y;
-    ow_sub4 max_y = min_y;
-    for (uint32_t i = 1; i < count; i++) {
-        min_x = points[i].x < min_x ? points[i].x : min_x;
-        max_x = points[i].x > max_x ? points[i].x : max_x;
-        min_y = points[i].y < min_y ? points[i].y : min_y;
-        max_y = points[i].y > max_y ? points[i].y : max_y;
+    return a < b ? a : b;
+}
+
+static inline ow_sub4 most(ow_sub4 a, ow_sub4 b)
+{
+    return a > b ? a : b;
+}
+
+/* Triangles are most of most models: the tiny ones that hold no centre leave at once. */
+static void scan_triangles(const struct ow_outline_point *p, enum ow_winding rule,
+                           const struct ow_window *window, struct ow_span_sink *sink)
+{
+    ow_sub4 min_x = least(p[0].x, least(p[1].x, p[2].x));
+    ow_sub4 max_x = most(p[0].x, most(p[1].x, p[2].x));
+    ow_sub4 min_y = least(p[0].y, least(p[1].y, p[2].y));
+    ow_sub4 max_y = most(p[0].y, most(p[1].y, p[2].y));
+    struct box box = box_of(min_x, max_x, min_y, max_y, window);
+    if (box_is_empty(&box)) {
+        return;
     }
-    int32_t left = first_centre(min_x);
-    int32_t right = first_centre(max_x);
-    int32_t line = first_centre(min_y);
-    int32_t end_line = first_centre(max_y);
-    return left >= right || line >= end_line || right <= 0 || left >= window->width ||
-           end_line <= window->first_line || line >= window->end_line;
+    int64_t side = side_of(p[0], p[1], p[2]);
+    if (side >= 0 && (rule == OW_WINDING_POSITIVE || side == 0)) {
+        return; /* a back, or nothing */
+    }
+    if (side < 0 && max_x - min_x < SMALL_EDGE && max_y - min_y < SMALL_EDGE &&
+        box.right - box.left <= SMALL_WIDTH) {
+        scan_small_triangle(p, &box, sink);
+    } else {
+        scan_triangle(p[0], p[1], p[2], &box, window->width, sink);
+    }
 }
 
 static void scan_outline(const struct ow_outline_point *points, uint32_t count,
@@ -350,18 +461,22 @@ static void scan_outline(const struct ow_outline_point *points, uint32_t count,
 {
     uint32_t top = 0;
     uint32_t bottom = 0;
+    ow_sub4 min_x = points[0].x;
+    ow_sub4 max_x = min_x;
     for (uint32_t i = 1; i < count; i++) {
+        min_x = least(min_x, points[i].x);
+        max_x = most(max_x, points[i].x);
         top = points[i].y < points[top].y ? i : top;
         bottom = points[i].y > points[bottom].y ? i : bottom;
     }
-    int32_t line = first_centre(points[top].y);
-    int32_t end_line = first_centre(points[bottom].y);
-    line = line < window->first_line ? window->first_line : line;
-    end_line = end_line > window->end_line ? window->end_line : end_line;
+    struct box box = box_of(min_x, max_x, points[top].y, points[bottom].y, window);
+    if (box_is_empty(&box)) {
+        return;
+    }
     if (goes_down_once(points, count, top, bottom)) {
-        scan_chains(points, count, top, bottom, rule, line, end_line, window->width, sink);
+        scan_chains(points, count, top, bottom, rule, box.line, box.end_line, window->width, sink);
     } else {
-        scan_windings(points, count, rule, line, end_line, window->width, edges, sink);
+        scan_windings(points, count, rule, box.line, box.end_line, window->width, edges, sink);
     }
 }
 
@@ -369,11 +484,8 @@ void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_wind
              const struct ow_window *window, struct ow_scan_edge *edges,
              struct ow_span_sink *sink)
 {
-    if (is_nowhere(points, count, window)) {
-        return;
-    }
     if (count == 3) {
-        scan_triangle(points, rule, window, sink);
+        scan_triangles(points, rule, window, sink);
     } else {
         scan_outline(points, count, rule, window, edges, sink);
     }

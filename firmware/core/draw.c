@@ -74,20 +74,32 @@ static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, ui
     return count < 3 ? 0 : count;
 }
 
+/* Looks up all corners, last first if reverse. False if one must be clipped first. */
+static inline bool look_up_corners(const struct frame *frame, const uint8_t *corner_bytes,
+                                   uint32_t corners, bool wide, bool reverse)
+{
+    struct ow_outline_point *out = frame->workspace->outline + (reverse ? corners - 1 : 0);
+    for (uint32_t i = 0; i < corners; i++) {
+        uint32_t vertex = wide ? ow_read_u32(corner_bytes, 4 * i) : ow_read_u16(corner_bytes, 2 * i);
+        *out = screen_vertex(frame, vertex);
+        if (out->x == OW_CLIP_FIRST) {
+            return false;
+        }
+        out += reverse ? -1 : 1;
+    }
+    return true;
+}
+
 /* The face's outline in workspace->outline. Returns its count of points, 0 for none. */
 static uint32_t project_outline(struct frame *frame, const struct ow_face *face)
 {
     const struct ow_tree *tree = frame->tree;
-    struct ow_outline_point *outline = frame->workspace->outline;
+    const uint8_t *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
     uint32_t corners = ow_read_u8(tree->bytes, face->at);
-    for (uint32_t i = 0; i < corners; i++) {
-        uint32_t to = face->reverse ? corners - 1 - i : i;
-        outline[to] = screen_vertex(frame, corner(tree, face->at, i));
-        if (outline[to].x == OW_CLIP_FIRST) {
-            return clip_outline(frame, face, corners);
-        }
-    }
-    return corners;
+    bool ready = (tree->flags & OW_TREE_INDEX32)
+                     ? look_up_corners(frame, corner_bytes, corners, true, face->reverse)
+                     : look_up_corners(frame, corner_bytes, corners, false, face->reverse);
+    return ready ? corners : clip_outline(frame, face, corners);
 }
 
 /* A face is shaded when its first spans come: most small faces have none. */
@@ -108,7 +120,7 @@ static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stat
 {
     struct ow_workspace *workspace = frame->workspace;
     struct ow_surface *surface = &frame->surface;
-    while (!frame->kind->is_full(surface) && ow_walk_next(walk, &frame->face)) {
+    while (surface->lines_open > 0 && ow_walk_next(walk, &frame->face)) {
         uint32_t count = project_outline(frame, &frame->face);
         if (count == 0) {
             continue;

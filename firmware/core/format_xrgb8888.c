@@ -17,6 +17,13 @@ static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
     }
     ow_word64 *pair = (ow_word64 *)(void *)(pixel + first);
     ow_word64 both = (ow_word64)word << 32 | word;
+    for (; first + 8 <= end; first += 8) {
+        pair[0] = both;
+        pair[1] = both;
+        pair[2] = both;
+        pair[3] = both;
+        pair += 4;
+    }
     for (; first + 2 <= end; first += 2) {
         *pair++ = both;
     }

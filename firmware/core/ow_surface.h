@@ -22,7 +22,7 @@ struct ow_surface {
     /* Front to back: a bit for each pixel that nothing has been written to. */
     uint32_t *unlit;
     uint32_t words_in_line;
-    uint32_t lines_open; /* lines with unlit pixels */
+    uint32_t lines_open; /* lines with unlit pixels; 0: nothing more can be seen */
     uint16_t *open_pixels; /* unlit pixels of each line */
 };
 
@@ -31,7 +31,6 @@ struct ow_surface_kind {
     void (*begin)(struct ow_surface *surface, uint32_t background);
     /* Writes count spans of one face in the surface's colour. */
     void (*take)(struct ow_surface *surface, const struct ow_span *spans, uint32_t count);
-    bool (*is_full)(const struct ow_surface *surface); /* nothing more can be seen */
     void (*end)(struct ow_surface *surface, uint32_t background);
 };
 

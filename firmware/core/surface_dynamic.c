@@ -111,11 +111,6 @@ static void take(struct ow_surface *surface, const struct ow_span *spans, uint32
     }
 }
 
-static bool is_full(const struct ow_surface *surface)
-{
-    return surface->lines_open == 0;
-}
-
 /* The background goes where nothing was written: no clear before, each pixel once. */
 static void end(struct ow_surface *surface, uint32_t background)
 {
@@ -137,6 +132,5 @@ const struct ow_surface_kind ow_surface_dynamic = {
     .direction = OW_NEAREST_FIRST,
     .begin = begin,
     .take = take,
-    .is_full = is_full,
     .end = end,
 };

@@ -9,6 +9,7 @@ static void begin(struct ow_surface *surface, uint32_t background)
         target->format->fill(target->pixels + i * target->stride, 0, surface->width, background);
     }
     surface->pixels_background = surface->width * target->line_count;
+    surface->lines_open = target->line_count; /* for ever: what is painted can be painted over */
 }
 
 static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)
@@ -17,12 +18,6 @@ static void take(struct ow_surface *surface, const struct ow_span *spans, uint32
         const struct ow_span *span = &spans[i];
         ow_write_run(surface, span->line, span->first, span->end);
     }
-}
-
-static bool is_full(const struct ow_surface *surface)
-{
-    (void)surface;
-    return false;
 }
 
 static void end(struct ow_surface *surface, uint32_t background)
@@ -35,6 +30,5 @@ const struct ow_surface_kind ow_surface_painter = {
     .direction = OW_FARTHEST_FIRST,
     .begin = begin,
     .take = take,
-    .is_full = is_full,
     .end = end,
 };

@@ -85,8 +85,8 @@ static inline bool looks_away(const struct ow_walk *walk, uint32_t at, bool reve
     int32_t z = walk->towards[2] - (ow_read_i16(bytes, vertex_at + 4) & mask);
     int32_t sum = ow_read_i8(bytes, at + 1) * x + ow_read_i8(bytes, at + 2) * y +
                   ow_read_i8(bytes, at + 3) * z;
-    return (reverse ? sum > walk->doubt : sum < -walk->doubt) &&
-           !(ow_read_u16(bytes, at + 4) & OW_POLYGON_UNEVEN);
+    sum = reverse ? -sum : sum;
+    return sum < -walk->doubt && !(ow_read_u16(bytes, at + 4) & OW_POLYGON_UNEVEN);
 }
 
 /* A node's first word, and where what follows word and bounds begins. */
@@ -176,28 +176,36 @@ static void resume(struct ow_walk *walk)
 bool ow_walk_next(struct ow_walk *walk, struct ow_face *face)
 {
     const struct ow_tree *tree = walk->tree;
+    const uint8_t *bytes = tree->bytes;
     uint32_t step = walk->direction == OW_FARTHEST_FIRST ? 4 : 0u - 4;
     for (;;) {
-        while (walk->run_left > 0) {
-            uint32_t item = ow_read_u32(tree->bytes, walk->run_at);
-            walk->run_at += step;
-            walk->run_left--;
-            uint32_t value = item >> OW_ITEM_TAG_BITS;
-            if ((item & 3) == OW_ITEM_NODE) {
-                if (walk->run_left > 0) {
-                    push(walk, walk->run_at, walk->run_left);
+        uint32_t at = walk->run_at;
+        for (uint32_t left = walk->run_left; left > 0; left--) {
+            uint32_t item = ow_read_u32(bytes, at);
+            uint32_t tag = item & 3;
+            at += step;
+            if (tag == OW_ITEM_NODE) {
+                if (left > 1) {
+                    push(walk, at, left - 1);
                 }
-                enter(walk, tree->nodes_at + 4 * value);
+                enter(walk, tree->nodes_at + 4 * (item >> OW_ITEM_TAG_BITS));
+                at = walk->run_at;
+                left = walk->run_left + 1;
                 continue;
             }
+            uint32_t polygon_at = tree->polygons_at + (item >> OW_ITEM_TAG_BITS << 1);
             walk->faces_met++;
-            face->reverse = (item & 3) == OW_ITEM_REVERSE;
-            face->at = tree->polygons_at + 2 * value;
-            if (!(face->reverse && walk->fronts_only) &&
-                !(walk->reject_backs && looks_away(walk, face->at, face->reverse))) {
-                return true;
+            if ((tag == OW_ITEM_REVERSE && walk->fronts_only) ||
+                (walk->reject_backs && looks_away(walk, polygon_at, tag == OW_ITEM_REVERSE))) {
+                continue;
             }
+            face->at = polygon_at;
+            face->reverse = tag == OW_ITEM_REVERSE;
+            walk->run_at = at;
+            walk->run_left = left - 1;
+            return true;
         }
+        walk->run_left = 0;
         if (walk->entries == 0) {
             return false;
         }

@@ -122,13 +122,14 @@ static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stat
     struct ow_surface *surface = &frame->surface;
     while (surface->lines_open > 0 && ow_walk_next(walk, &frame->face)) {
         uint32_t count = project_outline(frame, &frame->face);
-        if (count == 0) {
+        struct ow_box box;
+        if (count == 0 || !ow_outline_box(workspace->outline, count, &frame->window, &box) ||
+            (frame->kind->hides != NULL && frame->kind->hides(surface, &box))) {
             continue;
         }
         uint32_t before = surface->pixels_written;
         frame->shaded = false;
-        ow_scan(workspace->outline, count, frame->rule, &frame->window, workspace->edges,
-                &frame->sink);
+        ow_scan(workspace->outline, count, frame->rule, &box, workspace->edges, &frame->sink);
         stats->polygons_painted += surface->pixels_written != before;
     }
 }
@@ -165,6 +166,7 @@ static void begin_surface(struct ow_surface *surface, const struct ow_workspace 
     surface->width = view->width;
     surface->unlit = workspace->unlit;
     surface->open_pixels = workspace->open_pixels;
+    surface->open_tiles = workspace->open_tiles;
     surface->words_in_line = (view->width + 31u) / 32;
 }
 

@@ -78,6 +78,7 @@ struct ow_workspace {
     struct ow_span *spans;
     uint32_t *unlit;       /* front to back: a bit a pixel */
     uint16_t *open_pixels; /* front to back: unlit pixels of each line */
+    uint32_t *open_tiles;  /* front to back: a bit for each tile that may have unlit pixels */
     uint32_t cache_mask;  /* entries - 1, or all ones */
     uint32_t cache_entries;
     uint32_t capacity;    /* points of an outline after clipping */

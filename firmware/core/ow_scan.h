@@ -12,6 +12,7 @@
 #ifndef OW_SCAN_H
 #define OW_SCAN_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "ow_project.h"
@@ -44,22 +45,32 @@ struct ow_window {
     int32_t width;
 };
 
+/* Whole pixels: first to before the end on each axis. */
+struct ow_box {
+    int32_t left;
+    int32_t right;
+    int32_t line;
+    int32_t end_line;
+};
+
 /* Receives spans: line by line, from left to right, at most capacity at a time. */
 struct ow_span_sink {
     struct ow_span *spans;
     uint32_t count;
-    uint32_t capacity; /* at least the window's lines */
+    uint32_t capacity; /* at least the box's lines */
     void (*take)(struct ow_span_sink *sink); /* must set count to 0 */
 };
 
+/* The pixels of the window whose centres are within the outline's bounds. False if there are none. */
+bool ow_outline_box(const struct ow_outline_point *points, uint32_t count,
+                    const struct ow_window *window, struct ow_box *box);
+
 /*
  * Scans the outline points[0 .. count-1] (count >= 3, coordinates within
- * OW_GUARD of the screen's centre) inside the window. The sink must be empty;
- * all its spans have been taken at the end. edges: count entries of scratch
- * memory.
+ * OW_GUARD of the screen's centre) inside its box. The sink must be empty; all
+ * its spans have been taken at the end. edges: count entries of scratch memory.
  */
 void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
-             const struct ow_window *window, struct ow_scan_edge *edges,
-             struct ow_span_sink *sink);
+             const struct ow_box *box, struct ow_scan_edge *edges, struct ow_span_sink *sink);
 
 #endif

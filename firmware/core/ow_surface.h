@@ -24,7 +24,25 @@ struct ow_surface {
     uint32_t words_in_line;
     uint32_t lines_open; /* lines with unlit pixels; 0: nothing more can be seen */
     uint16_t *open_pixels; /* unlit pixels of each line */
+    uint32_t *open_tiles;  /* a bit for each tile that may have any */
 };
+
+/*
+ * Front to back remembers which tiles are lit whole, so that a face whose box
+ * is covered costs a few tests. A tile is as wide as a word of the unlit bits.
+ */
+enum { OW_TILE = 32, OW_TILE_BITS = 5 };
+
+static inline uint32_t ow_tiles(uint32_t pixels)
+{
+    return (pixels + OW_TILE - 1) / OW_TILE;
+}
+
+/* 32-bit words for the open bits of a row of tiles. */
+static inline uint32_t ow_tile_words(uint32_t width)
+{
+    return (ow_tiles(width) + 31) / 32;
+}
 
 struct ow_surface_kind {
     enum ow_direction direction;
@@ -32,6 +50,8 @@ struct ow_surface_kind {
     /* Writes count spans of one face in the surface's colour. */
     void (*take)(struct ow_surface *surface, const struct ow_span *spans, uint32_t count);
     void (*end)(struct ow_surface *surface, uint32_t background);
+    /* True if no pixel of the box can be seen any more; NULL: never known. */
+    bool (*hides)(const struct ow_surface *surface, const struct ow_box *box);
 };
 
 extern const struct ow_surface_kind ow_surface_painter;

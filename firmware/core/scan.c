@@ -88,17 +88,15 @@ static inline bool begin_edge(struct ow_scan_edge *edge, struct ow_outline_point
     return true;
 }
 
-/* Adds pixels first .. end-1, cut to the width. The sink must have room. */
+/* Adds pixels first .. end-1, cut to the box. The sink must have room. */
 static inline void add_span(struct ow_span_sink *sink, int32_t line, int32_t first, int32_t end,
-                            int32_t width)
+                            const struct ow_box *box)
 {
-    first = first < 0 ? 0 : first;
-    end = end > width ? width : end;
+    first = first < box->left ? box->left : first;
+    end = end > box->right ? box->right : end;
     if (first < end) {
         struct ow_span *span = &sink->spans[sink->count++];
-        span->line = (uint16_t)line;
-        span->first = (uint16_t)first;
-        span->end = (uint16_t)end;
+        *span = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
     }
 }
 
@@ -116,7 +114,8 @@ static inline void add_span(struct ow_span_sink *sink, int32_t line, int32_t fir
  * The places are copied so that the loop works in registers.
  */
 static void add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right, enum ow_winding rule,
-                      int32_t line, int32_t stop, int32_t width, struct ow_span_sink *sink)
+                      int32_t line, int32_t stop, const struct ow_box *box,
+                      struct ow_span_sink *sink)
 {
     const struct ow_scan_edge l = *left;
     const struct ow_scan_edge r = *right;
@@ -124,6 +123,8 @@ static void add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right, enu
     int32_t right_x = r.x;
     uint32_t left_rest = l.rest;
     uint32_t right_rest = r.rest;
+    const int32_t box_left = box->left;
+    const int32_t box_right = box->right;
     struct ow_span *span = sink->spans + sink->count;
     for (;;) {
         int32_t first = left_x;
@@ -132,8 +133,8 @@ static void add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right, enu
             first = right_x;
             end = left_x;
         }
-        first = first < 0 ? 0 : first;
-        end = end > width ? width : end;
+        first = first < box_left ? box_left : first;
+        end = end > box_right ? box_right : end;
         if (first < end) {
             *span++ = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
         }
@@ -182,22 +183,23 @@ static bool next_edge(struct chain *chain, int32_t line, int32_t end_line, uint3
 
 /* Fronts are counter-clockwise on a screen whose y goes down: the forward chain is the left one. */
 static void scan_chains(const struct ow_outline_point *points, uint32_t count, uint32_t top,
-                        uint32_t bottom, enum ow_winding rule, int32_t line, int32_t end_line,
-                        int32_t width, struct ow_span_sink *sink)
+                        uint32_t bottom, enum ow_winding rule, const struct ow_box *box,
+                        struct ow_span_sink *sink)
 {
+    int32_t line = box->line;
     struct chain left = {.points = points, .count = count, .at = top, .backward = false};
     struct chain right = {.points = points, .count = count, .at = top, .backward = true};
     left.edge.end = line;
     right.edge.end = line;
-    while (line < end_line) {
-        if (left.edge.end <= line && !next_edge(&left, line, end_line, bottom)) {
+    while (line < box->end_line) {
+        if (left.edge.end <= line && !next_edge(&left, line, box->end_line, bottom)) {
             return;
         }
-        if (right.edge.end <= line && !next_edge(&right, line, end_line, bottom)) {
+        if (right.edge.end <= line && !next_edge(&right, line, box->end_line, bottom)) {
             return;
         }
         int32_t stop = left.edge.end < right.edge.end ? left.edge.end : right.edge.end;
-        add_lines(&left.edge, &right.edge, rule, line, stop, width, sink);
+        add_lines(&left.edge, &right.edge, rule, line, stop, box, sink);
         line = stop;
     }
 }
@@ -216,7 +218,7 @@ static void sort_crossings(struct ow_scan_edge *edges, uint32_t count)
 
 /* Spans of one line: edges[0 .. active-1] cross it, sorted by x. */
 static void wind_line(const struct ow_scan_edge *edges, uint32_t active, enum ow_winding rule,
-                      int32_t line, int32_t width, struct ow_span_sink *sink)
+                      int32_t line, const struct ow_box *box, struct ow_span_sink *sink)
 {
     int32_t winding = 0;
     int32_t first = 0;
@@ -230,7 +232,7 @@ static void wind_line(const struct ow_scan_edge *edges, uint32_t active, enum ow
         if (now && !inside) {
             first = x;
         } else if (!now && inside) {
-            add_span(sink, line, first, x, width);
+            add_span(sink, line, first, x, box);
             if (sink->count == sink->capacity) {
                 sink->take(sink);
             }
@@ -244,9 +246,11 @@ static void wind_line(const struct ow_scan_edge *edges, uint32_t active, enum ow
  * count lie below it or are done.
  */
 static void scan_windings(const struct ow_outline_point *points, uint32_t count,
-                          enum ow_winding rule, int32_t line, int32_t end_line, int32_t width,
+                          enum ow_winding rule, const struct ow_box *box,
                           struct ow_scan_edge *edges, struct ow_span_sink *sink)
 {
+    int32_t line = box->line;
+    int32_t end_line = box->end_line;
     uint32_t used = 0;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t next = i + 1 == count ? 0 : i + 1;
@@ -264,7 +268,7 @@ static void scan_windings(const struct ow_outline_point *points, uint32_t count,
             }
         }
         sort_crossings(edges, active);
-        wind_line(edges, active, rule, line, width, sink);
+        wind_line(edges, active, rule, line, box, sink);
         uint32_t kept = 0;
         for (uint32_t i = 0; i < active; i++) {
             if (edges[i].end > line + 1) {
@@ -317,29 +321,6 @@ static inline void swap_if_above(struct ow_outline_point *a, struct ow_outline_p
     }
 }
 
-/* Whole pixels, from the first to before the end on each axis. */
-struct box {
-    int32_t left, right, line, end_line;
-};
-
-static inline bool box_is_empty(const struct box *box)
-{
-    return box->line >= box->end_line || box->left >= box->right;
-}
-
-/* The pixels of the window whose centres are inside the bounds of these points. */
-static inline struct box box_of(ow_sub4 min_x, ow_sub4 max_x, ow_sub4 min_y, ow_sub4 max_y,
-                                const struct ow_window *window)
-{
-    struct box box = {first_centre(min_x), first_centre(max_x), first_centre(min_y),
-                      first_centre(max_y)};
-    box.left = box.left < 0 ? 0 : box.left;
-    box.right = box.right > window->width ? window->width : box.right;
-    box.line = box.line < window->first_line ? window->first_line : box.line;
-    box.end_line = box.end_line > window->end_line ? window->end_line : box.end_line;
-    return box;
-}
-
 /* An edge as a half plane: not negative at the pixel centres that are on its inner side. */
 struct half_plane {
     int32_t value; /* at the line's first pixel */
@@ -358,7 +339,7 @@ static inline struct half_plane half_plane(struct ow_outline_point p, struct ow_
 }
 
 /* A few pixels: each is held against the three edges; no division. Fronts only. */
-static void scan_small_triangle(const struct ow_outline_point *p, const struct box *box,
+static void scan_small_triangle(const struct ow_outline_point *p, const struct ow_box *box,
                                 struct ow_span_sink *sink)
 {
     int32_t x = box->left * SUB + HALF;
@@ -394,7 +375,7 @@ static void scan_small_triangle(const struct ow_outline_point *p, const struct b
 
 /* One edge from top to bottom on one side, two on the other. */
 static void scan_triangle(struct ow_outline_point a, struct ow_outline_point b,
-                          struct ow_outline_point c, const struct box *box, int32_t width,
+                          struct ow_outline_point c, const struct ow_box *box,
                           struct ow_span_sink *sink)
 {
     swap_if_above(&a, &b);
@@ -408,11 +389,11 @@ static void scan_triangle(struct ow_outline_point a, struct ow_outline_point b,
     struct ow_scan_edge *right = b_is_right ? &part : &whole;
     (void)begin_edge(&whole, a, c, line, box->end_line);
     if (begin_edge(&part, a, b, line, box->end_line)) {
-        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, width, sink);
+        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, box, sink);
         line = part.end;
     }
     if (begin_edge(&part, b, c, line, box->end_line)) {
-        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, width, sink);
+        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, box, sink);
     }
 }
 
@@ -431,63 +412,70 @@ static inline ow_sub4 most(ow_sub4 a, ow_sub4 b)
     return a > b ? a : b;
 }
 
-/* Triangles are most of most models: the tiny ones that hold no centre leave at once. */
+/* Triangles are most of most models, and most of them are small. */
 static void scan_triangles(const struct ow_outline_point *p, enum ow_winding rule,
-                           const struct ow_window *window, struct ow_span_sink *sink)
+                           const struct ow_box *box, struct ow_span_sink *sink)
 {
-    ow_sub4 min_x = least(p[0].x, least(p[1].x, p[2].x));
-    ow_sub4 max_x = most(p[0].x, most(p[1].x, p[2].x));
-    ow_sub4 min_y = least(p[0].y, least(p[1].y, p[2].y));
-    ow_sub4 max_y = most(p[0].y, most(p[1].y, p[2].y));
-    struct box box = box_of(min_x, max_x, min_y, max_y, window);
-    if (box_is_empty(&box)) {
-        return;
-    }
     int64_t side = side_of(p[0], p[1], p[2]);
     if (side >= 0 && (rule == OW_WINDING_POSITIVE || side == 0)) {
         return; /* a back, or nothing */
     }
-    if (side < 0 && max_x - min_x < SMALL_EDGE && max_y - min_y < SMALL_EDGE &&
-        box.right - box.left <= SMALL_WIDTH) {
-        scan_small_triangle(p, &box, sink);
+    ow_sub4 left = least(p[0].x, least(p[1].x, p[2].x));
+    ow_sub4 right = most(p[0].x, most(p[1].x, p[2].x));
+    ow_sub4 top = least(p[0].y, least(p[1].y, p[2].y));
+    ow_sub4 bottom = most(p[0].y, most(p[1].y, p[2].y));
+    if (side < 0 && box->right - box->left <= SMALL_WIDTH && right - left < SMALL_EDGE &&
+        bottom - top < SMALL_EDGE) {
+        scan_small_triangle(p, box, sink);
     } else {
-        scan_triangle(p[0], p[1], p[2], &box, window->width, sink);
+        scan_triangle(p[0], p[1], p[2], box, sink);
     }
 }
 
 static void scan_outline(const struct ow_outline_point *points, uint32_t count,
-                         enum ow_winding rule, const struct ow_window *window,
+                         enum ow_winding rule, const struct ow_box *box,
                          struct ow_scan_edge *edges, struct ow_span_sink *sink)
 {
     uint32_t top = 0;
     uint32_t bottom = 0;
-    ow_sub4 min_x = points[0].x;
-    ow_sub4 max_x = min_x;
     for (uint32_t i = 1; i < count; i++) {
-        min_x = least(min_x, points[i].x);
-        max_x = most(max_x, points[i].x);
         top = points[i].y < points[top].y ? i : top;
         bottom = points[i].y > points[bottom].y ? i : bottom;
     }
-    struct box box = box_of(min_x, max_x, points[top].y, points[bottom].y, window);
-    if (box_is_empty(&box)) {
-        return;
-    }
     if (goes_down_once(points, count, top, bottom)) {
-        scan_chains(points, count, top, bottom, rule, box.line, box.end_line, window->width, sink);
+        scan_chains(points, count, top, bottom, rule, box, sink);
     } else {
-        scan_windings(points, count, rule, box.line, box.end_line, window->width, edges, sink);
+        scan_windings(points, count, rule, box, edges, sink);
     }
 }
 
+bool ow_outline_box(const struct ow_outline_point *points, uint32_t count,
+                    const struct ow_window *window, struct ow_box *box)
+{
+    ow_sub4 min_x = points[0].x;
+    ow_sub4 max_x = min_x;
+    ow_sub4 min_y = points[0].y;
+    ow_sub4 max_y = min_y;
+    for (uint32_t i = 1; i < count; i++) {
+        min_x = least(min_x, points[i].x);
+        max_x = most(max_x, points[i].x);
+        min_y = least(min_y, points[i].y);
+        max_y = most(max_y, points[i].y);
+    }
+    box->left = most(first_centre(min_x), 0);
+    box->right = least(first_centre(max_x), window->width);
+    box->line = most(first_centre(min_y), window->first_line);
+    box->end_line = least(first_centre(max_y), window->end_line);
+    return box->left < box->right && box->line < box->end_line;
+}
+
 void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
-             const struct ow_window *window, struct ow_scan_edge *edges,
-             struct ow_span_sink *sink)
+             const struct ow_box *box, struct ow_scan_edge *edges, struct ow_span_sink *sink)
 {
     if (count == 3) {
-        scan_triangles(points, rule, window, sink);
+        scan_triangles(points, rule, box, sink);
     } else {
-        scan_outline(points, count, rule, window, edges, sink);
+        scan_outline(points, count, rule, box, edges, sink);
     }
     if (sink->count > 0) {
         sink->take(sink);

@@ -45,6 +45,8 @@ static void begin(struct ow_surface *surface, uint32_t background)
         surface->unlit[(i + 1) * words - 1] = bits_to((surface->width - 1) & 31);
     }
     surface->lines_open = lines;
+    memset(surface->open_tiles, 0xFF,
+           (size_t)ow_tile_words(surface->width) * ow_tiles(lines) * sizeof *surface->open_tiles);
 }
 
 /* The first pixel in from .. end-1 whose bit is not that of skip (0 or all ones); else end. */
@@ -73,6 +75,59 @@ static void clear_bits(uint32_t *words, uint32_t first, uint32_t end)
         mask = 0xFFFFFFFFu;
     }
     words[last] &= ~(mask & bits_to((end - 1) & 31));
+}
+
+/* True if none of a column of words has any of the mask's bits. */
+static bool column_is_lit(const struct ow_surface *surface, uint32_t column, uint32_t row,
+                          uint32_t end_row, uint32_t mask)
+{
+    const uint32_t *word = surface->unlit + row * surface->words_in_line + column;
+    for (; row < end_row; row++) {
+        if (*word & mask) {
+            return false;
+        }
+        word += surface->words_in_line;
+    }
+    return true;
+}
+
+/* True if a tile has no unlit pixel; remembered, since no pixel becomes unlit again. */
+static bool tile_is_lit(const struct ow_surface *surface, uint32_t column, uint32_t tile_row)
+{
+    uint32_t *open = surface->open_tiles + tile_row * ow_tile_words(surface->width) + column / 32;
+    uint32_t bit = 1u << (column & 31);
+    if (!(*open & bit)) {
+        return true;
+    }
+    uint32_t row = tile_row << OW_TILE_BITS;
+    uint32_t end_row = row + OW_TILE;
+    uint32_t lines = surface->target->line_count;
+    if (!column_is_lit(surface, column, row, end_row < lines ? end_row : lines, 0xFFFFFFFFu)) {
+        return false;
+    }
+    *open &= ~bit;
+    return true;
+}
+
+static bool hides(const struct ow_surface *surface, const struct ow_box *box)
+{
+    uint32_t row = (uint32_t)box->line - surface->target->first_line;
+    uint32_t end_row = (uint32_t)box->end_line - surface->target->first_line;
+    uint32_t column = (uint32_t)box->left / OW_TILE;
+    uint32_t last_column = ((uint32_t)box->right - 1) / OW_TILE;
+    if (column == last_column && end_row - row <= OW_TILE) { /* small: exactly */
+        uint32_t mask = bits_from((uint32_t)box->left & 31) & bits_to(((uint32_t)box->right - 1) & 31);
+        return column_is_lit(surface, column, row, end_row, mask);
+    }
+    uint32_t last_tile_row = (end_row - 1) >> OW_TILE_BITS;
+    for (uint32_t tile_row = row >> OW_TILE_BITS; tile_row <= last_tile_row; tile_row++) {
+        for (uint32_t c = column; c <= last_column; c++) {
+            if (!tile_is_lit(surface, c, tile_row)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 /* Writes the unlit runs among pixels first .. end-1 of a line (first < end); they are lit then. */
@@ -133,4 +188,5 @@ const struct ow_surface_kind ow_surface_dynamic = {
     .begin = begin,
     .take = take,
     .end = end,
+    .hides = hides,
 };

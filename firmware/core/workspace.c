@@ -52,6 +52,9 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     workspace->spans = cut(&cutter, config->lines, sizeof *workspace->spans);
     workspace->open_pixels = cut(&cutter, config->lines, sizeof *workspace->open_pixels);
     workspace->unlit = cut(&cutter, (uint64_t)words * config->lines, sizeof *workspace->unlit);
+    uint32_t tile_rows = ow_tiles(config->lines);
+    workspace->open_tiles = cut(&cutter, (uint64_t)ow_tile_words(config->width) * tile_rows,
+                                sizeof *workspace->open_tiles);
     workspace->cache_entries = entries;
     workspace->cache_mask = entries < tree->vertex_count ? entries - 1 : 0xFFFFFFFFu;
     workspace->capacity = capacity;

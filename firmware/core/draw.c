@@ -18,7 +18,10 @@ struct frame {
     const struct ow_surface_kind *kind;
     const struct ow_shader *shader;
     struct ow_face face;
-    bool shaded; /* the surface has this face's colour */
+    uint32_t points; /* of its outline */
+    bool shaded;     /* the surface has this face's colour or gradient */
+    bool clipped;    /* the clipper has made the lights of its corners */
+    struct ow_gradient gradient;
     const struct ow_tree *tree;
     const struct ow_view *view;
     struct ow_workspace *workspace;
@@ -58,10 +61,15 @@ static inline struct ow_outline_point screen_vertex(const struct frame *frame, u
 static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, uint32_t corners)
 {
     struct ow_workspace *workspace = frame->workspace;
+    bool smooth = ow_shade_is_smooth(frame->shader->shade);
     for (uint32_t i = 0; i < corners; i++) {
         uint32_t from = face->reverse ? corners - 1 - i : i;
-        workspace->clip[0][i] =
-            ow_to_camera(frame->tree, frame->view, corner(frame->tree, face->at, from));
+        uint32_t vertex = corner(frame->tree, face->at, from);
+        workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
+        if (smooth) {
+            workspace->clip[0][i].light =
+                ow_shade_corner(frame->shader, frame->tree, vertex, face->reverse);
+        }
     }
     uint32_t which;
     bool overflow = false;
@@ -70,7 +78,9 @@ static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, ui
     frame->dropped += overflow;
     for (uint32_t i = 0; i < count; i++) {
         workspace->outline[i] = ow_to_screen(frame->view, workspace->clip[which][i]);
+        workspace->corner_lights[i] = workspace->clip[which][i].light;
     }
+    frame->clipped = true;
     return count < 3 ? 0 : count;
 }
 
@@ -102,14 +112,35 @@ static uint32_t project_outline(struct frame *frame, const struct ow_face *face)
     return ready ? corners : clip_outline(frame, face, corners);
 }
 
+static void begin_gradient(struct frame *frame)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    const struct ow_face *face = &frame->face;
+    if (!frame->clipped) {
+        for (uint32_t i = 0; i < frame->points; i++) {
+            uint32_t from = face->reverse ? frame->points - 1 - i : i;
+            workspace->corner_lights[i] =
+                ow_shade_corner(frame->shader, frame->tree, corner(frame->tree, face->at, from),
+                                face->reverse);
+        }
+    }
+    ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights,
+                      frame->points, frame->shader->shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
+}
+
 /* A face is shaded when its first spans come: most small faces have none. */
 static void paint(struct ow_span_sink *sink)
 {
     struct frame *frame = (struct frame *)(void *)sink;
     struct ow_surface *surface = &frame->surface;
     if (!frame->shaded) {
-        uint32_t colour = ow_shade_face(frame->shader, frame->tree, &frame->face);
-        surface->colour = surface->target->format->pack(colour);
+        if (surface->gradient != NULL) {
+            surface->colour = ow_face_colour(frame->shader, frame->tree, &frame->face);
+            begin_gradient(frame);
+        } else {
+            uint32_t colour = ow_shade_face(frame->shader, frame->tree, &frame->face);
+            surface->colour = surface->target->format->pack(colour);
+        }
         frame->shaded = true;
     }
     frame->kind->take(surface, sink->spans, sink->count);
@@ -121,6 +152,7 @@ static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stat
     struct ow_workspace *workspace = frame->workspace;
     struct ow_surface *surface = &frame->surface;
     while (surface->lines_open > 0 && ow_walk_next(walk, &frame->face)) {
+        frame->clipped = false;
         uint32_t count = project_outline(frame, &frame->face);
         struct ow_box box;
         if (count == 0 || !ow_outline_box(workspace->outline, count, &frame->window, &box) ||
@@ -129,6 +161,7 @@ static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stat
         }
         uint32_t before = surface->pixels_written;
         frame->shaded = false;
+        frame->points = count;
         ow_scan(workspace->outline, count, frame->rule, &box, workspace->edges, &frame->sink);
         stats->polygons_painted += surface->pixels_written != before;
     }
@@ -184,6 +217,9 @@ enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
     if (status == OW_OK) {
         status = ow_walk_begin(&walk, tree, view, kind->direction, look->cull, workspace->stack);
     }
+    if (status == OW_OK && ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
+        status = OW_NORMALS;
+    }
     if (status != OW_OK) {
         return status;
     }
@@ -201,6 +237,8 @@ enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
     frame.sink = (struct ow_span_sink){workspace->spans, 0, workspace->lines, paint};
     begin_surface(&frame.surface, workspace, view, target);
     ow_shader_make(&shader, look, view);
+    frame.surface.shader = &shader;
+    frame.surface.gradient = ow_shade_is_smooth(look->shade) ? &frame.gradient : NULL;
     uint32_t background = target->format->pack(look->background);
     kind->begin(&frame.surface, background);
     draw_faces(&frame, &walk, &counted);

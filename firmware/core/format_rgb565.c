@@ -43,6 +43,15 @@ static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
     }
 }
 
+static void store(uint8_t *row, uint32_t first, uint32_t end, const uint32_t *rgb)
+{
+    for (uint32_t x = first; x < end; x++) {
+        uint32_t value = pack(*rgb++);
+        row[2 * x] = (uint8_t)value;
+        row[2 * x + 1] = (uint8_t)(value >> 8);
+    }
+}
+
 static uint32_t get(const uint8_t *row, uint32_t x)
 {
     return (uint32_t)row[2 * x] | (uint32_t)row[2 * x + 1] << 8;
@@ -55,5 +64,6 @@ const struct ow_pixel_format ow_format_rgb565 = {
     .pack = pack,
     .unpack = unpack,
     .fill = fill,
+    .store = store,
     .get = get,
 };

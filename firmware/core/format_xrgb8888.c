@@ -32,6 +32,14 @@ static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
     }
 }
 
+static void store(uint8_t *row, uint32_t first, uint32_t end, const uint32_t *rgb)
+{
+    ow_word32 *pixel = (ow_word32 *)(void *)row;
+    for (uint32_t x = first; x < end; x++) {
+        pixel[x] = ow_little32(*rgb++);
+    }
+}
+
 static uint32_t get(const uint8_t *row, uint32_t x)
 {
     return ow_little32(((const ow_word32 *)(const void *)row)[x]);
@@ -44,5 +52,6 @@ const struct ow_pixel_format ow_format_xrgb8888 = {
     .pack = same,
     .unpack = same,
     .fill = fill,
+    .store = store,
     .get = get,
 };

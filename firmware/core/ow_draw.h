@@ -21,8 +21,10 @@ enum ow_order {
 };
 
 enum ow_shade {
-    OW_SHADE_ID,  /* the source polygon's number as a colour, no light */
-    OW_SHADE_FLAT /* one colour a face: ambient and directional light */
+    OW_SHADE_ID,      /* the source polygon's number as a colour, no light */
+    OW_SHADE_FLAT,    /* one colour a face: ambient and directional light */
+    OW_SHADE_GOURAUD, /* intensity interpolated between the corners; needs vertex normals */
+    OW_SHADE_PHONG    /* normals interpolated, with a highlight; needs vertex normals */
 };
 
 /* Lengths and directions: right, up, towards the viewer; or the model's axes. */
@@ -40,6 +42,9 @@ struct ow_look {
     uint32_t background; /* 0x00RRGGBB; OW_SHADE_ID: packed as it is */
     uint16_t ambient_q8; /* 256: all faces show their colour in full */
     struct ow_light light;
+    /* OW_SHADE_PHONG: the highlight's strength, 256 adds full white in its middle; 0: none. */
+    uint16_t specular_q8;
+    uint8_t shininess; /* the highlight's exponent is 2^shininess; 0 .. 7 */
 };
 
 /* Where the band's pixels go. */
@@ -73,6 +78,7 @@ struct ow_workspace {
     struct ow_walk_entry *stack;
     struct ow_cached_vertex *cache;
     struct ow_outline_point *outline;
+    struct ow_corner_light *corner_lights;
     struct ow_camera_point *clip[2];
     struct ow_scan_edge *edges;
     struct ow_span *spans;
@@ -101,7 +107,7 @@ enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct o
 
 /*
  * Draws one band whole, background included. The picture does not depend on
- * the order, the bands or the cache. Errors: OW_ARGUMENT, OW_SIDES,
+ * the order, the bands or the cache. Errors: OW_ARGUMENT, OW_SIDES, OW_NORMALS,
  * OW_CAPACITY (the rest was drawn). stats may be NULL.
  */
 enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,

@@ -18,6 +18,8 @@ struct ow_pixel_format {
     uint32_t (*unpack)(uint32_t value);
     /* Sets pixels first .. end-1 of a row to a packed value; row: aligned to 4 bytes. */
     void (*fill)(uint8_t *row, uint32_t first, uint32_t end, uint32_t value);
+    /* Packs end - first colours 0x00RRGGBB into pixels first .. end-1 of a row. */
+    void (*store)(uint8_t *row, uint32_t first, uint32_t end, const uint32_t *rgb);
     /* The packed value of one pixel of a row. */
     uint32_t (*get)(const uint8_t *row, uint32_t x);
 };

@@ -12,10 +12,21 @@
 #include "ow_draw.h"
 #include "ow_read.h"
 
+/*
+ * What smooth shading interpolates: Gouraud's intensity (65536 is full) in [0],
+ * or Phong's normal, 8128 times the unit vector.
+ */
+enum { OW_LIGHT_PARTS = 3 };
+
+struct ow_corner_light {
+    int32_t part[OW_LIGHT_PARTS];
+};
+
 struct ow_camera_point {
     int32_t x;
     int32_t y;
     int32_t z;
+    struct ow_corner_light light; /* only clipping looks at it, and only for smooth shading */
 };
 
 struct ow_outline_point {
@@ -47,6 +58,7 @@ static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
                   shift),
         (int32_t)((view->forward[0] * x + view->forward[1] * y + view->forward[2] * z +
                    view->offset[2]) >> shift),
+        {{0, 0, 0}},
     };
 }
 

@@ -14,6 +14,7 @@ enum ow_status {
     OW_MEMORY = -2,   /* the memory handed in is smaller than ..._bytes_needed */
     OW_CAPACITY = -3, /* a capacity ran out: less was drawn, nothing was written past */
     OW_SIDES = -4,    /* a one-sided tree with sequences cannot show back faces */
+    OW_NORMALS = -5,  /* smooth shading of a tree without vertex normals */
     /* The blob's side. */
     OW_MAGIC = -16,     /* these bytes are not an Oldwell tree */
     OW_VERSION = -17,   /* a tree of another format version */

@@ -10,12 +10,16 @@
 #include <stdint.h>
 
 #include "ow_draw.h"
+#include "ow_gradient.h"
 #include "ow_scan.h"
+#include "ow_shade.h"
 
 struct ow_surface {
     const struct ow_target *target;
     uint32_t width;
-    uint32_t colour;           /* packed, of the face being scanned */
+    uint32_t colour; /* of the face being scanned: packed, or the material's if it is smooth */
+    const struct ow_shader *shader;
+    struct ow_gradient *gradient; /* of the face being scanned; NULL: it has one colour */
     uint32_t pixels_written;
     uint32_t spans_written;
     uint32_t pixels_background;
@@ -62,12 +66,19 @@ static inline uint8_t *ow_line_pixels(const struct ow_target *target, uint32_t l
     return target->pixels + (line - target->first_line) * target->stride;
 }
 
-/* Writes pixels first .. end-1 of a line of the target, in the surface's colour. */
+/* Writes pixels first .. end-1 of a line by the surface's gradient. */
+void ow_write_smooth_run(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
+
+/* Writes pixels first .. end-1 of a line in the colour or gradient of the face. */
 static inline void ow_write_run(struct ow_surface *surface, uint32_t line, uint32_t first,
                                 uint32_t end)
 {
-    surface->target->format->fill(ow_line_pixels(surface->target, line), first, end,
-                                  surface->colour);
+    if (surface->gradient != NULL) {
+        ow_write_smooth_run(surface, line, first, end);
+    } else {
+        surface->target->format->fill(ow_line_pixels(surface->target, line), first, end,
+                                      surface->colour);
+    }
     surface->pixels_written += end - first;
     surface->spans_written++;
 }

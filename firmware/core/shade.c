@@ -1,32 +1,89 @@
 /* SPDX-License-Identifier: 0BSD */
 /*
- * Stage "shade": flat. Intensity is ambient plus directional light times the
- * cosine of its angle of incidence, at most 1, times the material's colour.
+ * Stage "shade". Intensity is ambient plus directional light times the cosine
+ * of its angle of incidence, at most 1, times the material's colour; Phong adds
+ * a white highlight around the vector halfway between light and viewer.
  */
 #include "ow_shade.h"
 
 #include "ow_read.h"
 
 enum {
-    FULL = 256,           /* intensity that shows a colour as it is */
-    PER_NORMAL_Q22 = 33026 /* 2^22 / 127: normals are 127 long */
+    FULL = 256,            /* intensity that shows a colour as it is */
+    PER_NORMAL_Q22 = 33026, /* 2^22 / 127: normals are 127 long */
+    NORMAL_BITS = 6        /* Phong's normals: 64 times the stored ones */
 };
+
+/* A direction given right, up, towards the viewer, in model axes. */
+static void to_model(int32_t model[3], const int32_t camera[3], const struct ow_view *view)
+{
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = (int64_t)camera[0] * view->right[i] + (int64_t)camera[1] * view->up[i] -
+                      (int64_t)camera[2] * view->forward[i];
+        model[i] = (int32_t)(sum >> 30);
+    }
+}
+
+/* 2^30 / sqrt(x) for x in 2^28 .. 2^30, within 2^-11: a line and two Newton steps. */
+static uint32_t reciprocal_root(uint32_t x)
+{
+    uint32_t y = 70900 - (x >> 15) - (x >> 17); /* 2^15 .. 2^16, within a tenth */
+    for (int i = 0; i < 2; i++) {
+        uint32_t square = (uint32_t)(((uint64_t)y * y) >> 15);           /* 2^15 .. 2^17 */
+        uint32_t product = (uint32_t)(((uint64_t)square * x) >> 30);     /* near 2^15 */
+        y = (uint32_t)(((uint64_t)y * (3 * 32768 - product)) >> 16);
+    }
+    return y;
+}
+
+/* Scales v (components below 2^15 in size) to unit length, 14 fraction bits; 0 stays 0. */
+static void make_unit(int32_t v[3])
+{
+    uint32_t squares = (uint32_t)(v[0] * v[0]) + (uint32_t)(v[1] * v[1]) + (uint32_t)(v[2] * v[2]);
+    if (squares == 0) {
+        return;
+    }
+    int32_t shift = 0; /* squares * 4^shift is in 2^28 .. 2^30 */
+    while (squares >= 1u << 30) {
+        squares >>= 2;
+        shift--;
+    }
+    while (squares < 1u << 28) {
+        squares <<= 2;
+        shift++;
+    }
+    int32_t root = (int32_t)reciprocal_root(squares); /* 2^15 * 2^15 / length */
+    for (int i = 0; i < 3; i++) {
+        int64_t scaled = (int64_t)v[i] * root;
+        v[i] = (int32_t)(shift < 0 ? scaled >> (16 - shift) : (scaled << shift) >> 16);
+    }
+}
 
 void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
                     const struct ow_view *view)
 {
+    static const int32_t viewer_q14[3] = {0, 0, 1 << 14};
     shader->shade = look->shade;
     shader->ambient_q16 = look->ambient_q8 * 65536;
-    const int16_t *d = look->light.direction_q14;
+    shader->light_q8 = look->light.intensity_q8;
+    shader->specular_q8 = look->specular_q8;
+    shader->shininess = look->shininess;
+    int32_t viewer[3];
+    to_model(viewer, viewer_q14, view);
     for (int i = 0; i < 3; i++) {
-        int64_t along = d[i];
-        if (!look->light.in_model_space) {
-            along = ((int64_t)d[0] * view->right[i] + (int64_t)d[1] * view->up[i] -
-                     (int64_t)d[2] * view->forward[i]) >> 30;
-        }
-        shader->light_q16[i] =
-            (int32_t)((along * look->light.intensity_q8 * PER_NORMAL_Q22) >> (14 + 22 - 16));
+        shader->towards_q14[i] = look->light.direction_q14[i];
     }
+    if (!look->light.in_model_space) {
+        to_model(shader->towards_q14, (const int32_t[3]){look->light.direction_q14[0],
+                                                         look->light.direction_q14[1],
+                                                         look->light.direction_q14[2]}, view);
+    }
+    for (int i = 0; i < 3; i++) {
+        shader->halfway_q14[i] = (shader->towards_q14[i] + viewer[i]) / 2;
+        int64_t along = (int64_t)shader->towards_q14[i] * look->light.intensity_q8;
+        shader->light_q16[i] = (int32_t)((along * PER_NORMAL_Q22) >> (14 + 22 - 16));
+    }
+    make_unit(shader->halfway_q14);
 }
 
 static uint32_t scale_channel(uint32_t colour, uint32_t shift, uint32_t intensity)
@@ -34,22 +91,27 @@ static uint32_t scale_channel(uint32_t colour, uint32_t shift, uint32_t intensit
     return ((colour >> shift & 255) * intensity / FULL) << shift;
 }
 
-static uint32_t face_intensity(const struct ow_shader *shader, const uint8_t *bytes,
-                               const struct ow_face *face)
+static uint32_t scale_colour(uint32_t colour, uint32_t intensity)
+{
+    return scale_channel(colour, 16, intensity) | scale_channel(colour, 8, intensity) |
+           scale_channel(colour, 0, intensity);
+}
+
+/* Intensity at a stored normal, 65536 for full. */
+static int32_t intensity_q16(const struct ow_shader *shader, const uint8_t *bytes,
+                             uint32_t normal_at, bool reverse)
 {
     int64_t light = 0;
     for (uint32_t i = 0; i < 3; i++) {
-        light += (int64_t)ow_read_i8(bytes, face->at + 1 + i) * shader->light_q16[i];
+        light += (int64_t)ow_read_i8(bytes, normal_at + i) * shader->light_q16[i];
     }
-    if (face->reverse) {
-        light = -light;
-    }
-    int64_t intensity = (shader->ambient_q16 + (light > 0 ? light : 0)) >> 16;
-    return intensity > FULL ? FULL : (uint32_t)intensity;
+    light = reverse ? -light : light;
+    int64_t intensity = (shader->ambient_q16 + (light > 0 ? light : 0)) >> 8;
+    return intensity > 65536 ? 65536 : (int32_t)intensity;
 }
 
-uint32_t ow_shade_face(const struct ow_shader *shader, const struct ow_tree *tree,
-                       const struct ow_face *face)
+uint32_t ow_face_colour(const struct ow_shader *shader, const struct ow_tree *tree,
+                        const struct ow_face *face)
 {
     const uint8_t *bytes = tree->bytes;
     if (shader->shade == OW_SHADE_ID) {
@@ -58,8 +120,73 @@ uint32_t ow_shade_face(const struct ow_shader *shader, const struct ow_tree *tre
                    : 0xFFFFFF;
     }
     uint32_t number = ow_read_u16(bytes, face->at + 4) & OW_POLYGON_COLOUR_MASK;
-    uint32_t colour = ow_read_u32(bytes, tree->colours_at + number * OW_COLOUR_BYTES);
-    uint32_t intensity = face_intensity(shader, bytes, face);
-    return scale_channel(colour, 16, intensity) | scale_channel(colour, 8, intensity) |
-           scale_channel(colour, 0, intensity);
+    return ow_read_u32(bytes, tree->colours_at + number * OW_COLOUR_BYTES);
+}
+
+uint32_t ow_shade_face(const struct ow_shader *shader, const struct ow_tree *tree,
+                       const struct ow_face *face)
+{
+    uint32_t colour = ow_face_colour(shader, tree, face);
+    if (shader->shade == OW_SHADE_ID) {
+        return colour;
+    }
+    int32_t intensity = intensity_q16(shader, tree->bytes, face->at + 1, face->reverse);
+    return scale_colour(colour, (uint32_t)intensity >> 8);
+}
+
+struct ow_corner_light ow_shade_corner(const struct ow_shader *shader, const struct ow_tree *tree,
+                                       uint32_t vertex, bool reverse)
+{
+    uint32_t at = tree->normals_at + vertex * OW_NORMAL_BYTES;
+    struct ow_corner_light light = {{0, 0, 0}};
+    if (shader->shade == OW_SHADE_GOURAUD) {
+        light.part[0] = intensity_q16(shader, tree->bytes, at, reverse);
+        return light;
+    }
+    for (uint32_t i = 0; i < 3; i++) {
+        int32_t n = ow_read_i8(tree->bytes, at + i) * (1 << NORMAL_BITS);
+        light.part[i] = reverse ? -n : n;
+    }
+    return light;
+}
+
+static int32_t dot_q14(const int32_t a[3], const int32_t b[3])
+{
+    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14;
+}
+
+static uint32_t add_white(uint32_t colour, uint32_t shift, uint32_t white)
+{
+    uint32_t sum = (colour >> shift & 255) + white;
+    return (sum > 255 ? 255 : sum) << shift;
+}
+
+static uint32_t shade_phong(const struct ow_shader *shader, uint32_t colour,
+                            const struct ow_corner_light *light)
+{
+    int32_t normal[3] = {light->part[0], light->part[1], light->part[2]};
+    make_unit(normal);
+    int32_t cosine = dot_q14(normal, shader->towards_q14);
+    int32_t intensity = shader->ambient_q16 >> 16;
+    uint32_t white = 0;
+    if (cosine > 0) {
+        intensity += (cosine * shader->light_q8) >> 14;
+        int32_t gleam = dot_q14(normal, shader->halfway_q14);
+        gleam = gleam < 0 ? 0 : gleam > 1 << 14 ? 1 << 14 : gleam;
+        for (uint32_t i = 0; i < shader->shininess; i++) {
+            gleam = (gleam * gleam) >> 14;
+        }
+        white = ((uint32_t)gleam * (uint32_t)shader->specular_q8 * 255) >> 22;
+    }
+    colour = scale_colour(colour, intensity > FULL ? FULL : (uint32_t)intensity);
+    return add_white(colour, 16, white) | add_white(colour, 8, white) | add_white(colour, 0, white);
+}
+
+uint32_t ow_shade_pixel(const struct ow_shader *shader, uint32_t colour,
+                        const struct ow_corner_light *light)
+{
+    if (shader->shade == OW_SHADE_PHONG) {
+        return shade_phong(shader, colour, light);
+    }
+    return scale_colour(colour, (uint32_t)light->part[0] >> 8);
 }

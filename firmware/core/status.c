@@ -16,6 +16,8 @@ const char *ow_status_text(int status)
         return "a capacity ran out; less was drawn";
     case OW_SIDES:
         return "back faces have no order in this tree; compile with --sides two";
+    case OW_NORMALS:
+        return "the tree has no vertex normals; compile with --normals";
     case OW_MAGIC:
         return "not an Oldwell tree";
     case OW_VERSION:

@@ -45,6 +45,7 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     workspace->stack = cut(&cutter, ow_walk_stack_bytes(tree), 1);
     workspace->cache = cut(&cutter, entries, sizeof *workspace->cache);
     workspace->outline = cut(&cutter, capacity, sizeof *workspace->outline);
+    workspace->corner_lights = cut(&cutter, capacity, sizeof *workspace->corner_lights);
     for (int i = 0; i < 2; i++) {
         workspace->clip[i] = cut(&cutter, capacity, sizeof *workspace->clip[i]);
     }

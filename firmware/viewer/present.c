@@ -90,7 +90,7 @@ static int draw_to_bands(struct ow_viewer *viewer)
     uint32_t bands = viewer->config.bands;
     uint32_t turn = 0;
     uint16_t count;
-    int status = OW_OK;
+    int status = wait_done(viewer, 0); /* a frame that timed out may still be under way */
     for (uint16_t first = 0; first < viewer->panel.height && status >= 0;
          first = (uint16_t)(first + count)) {
         count = lines_from(viewer, first);

@@ -137,7 +137,7 @@ int ow_viewer_start(struct ow_viewer *viewer, const struct ow_viewer_config *con
  * One round. Returns 1: a frame is on the panel; 0: nothing was to be drawn, it
  * slept until something may have changed; or a status: of the view
  * (OW_ARGUMENT), of drawing (OW_SIDES) or of a device. After a failure nothing
- * is in flight, and the next round draws the same frame anew and whole.
+ * is in flight (but after OW_TIMEOUT), and the next round draws the frame anew.
  */
 int ow_viewer_step(struct ow_viewer *viewer);
 

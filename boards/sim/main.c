@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * owsim: the viewer on the simulator's panel, clock and input. This file
+ * composes them; what happens to the frames is in output.c.
+ */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "output.h"
+#include "settings.h"
+#include "sim/sim_clock.h"
+#include "sim/sim_panel.h"
+#include "sim/sim_script.h"
+#include "tools/common/fail.h"
+#include "tools/common/outfile.h"
+#include "tree_file.h"
+#include "views.h"
+
+enum { SCRIPT_BYTES_MAX = 1 << 26, REPEAT_US = 50000, MS_US = 1000 };
+
+/* Everything that one run is made of. */
+struct run {
+    struct settings settings;
+    struct tree_file tree;
+    struct views views;
+    struct output output;
+    struct sim_panel panel;
+    struct sim_clock time;
+    struct ow_clock clock;
+    struct sim_script script;
+    struct ow_input input;
+    struct ow_wait wait;
+    struct ow_viewer_config config;
+    struct ow_viewer viewer;
+    void *memory;
+    struct bench bench;
+    struct ow_stats sum; /* of all frames */
+    uint32_t dropped;    /* frames of which a part was left out */
+    struct outfile *dump;
+};
+
+static void open_script(struct run *run)
+{
+    struct sim_script_error error;
+    const char *file = run->settings.script;
+    size_t bytes;
+    char *text = read_whole_file(file, file, SCRIPT_BYTES_MAX, &bytes);
+    if (!sim_script_parse(&run->script, text, bytes, &error)) {
+        fail(FAIL_INPUT, file, error.line, "%s", error.text);
+    }
+    free(text);
+    run->script.clock = &run->clock;
+    run->input = (struct ow_input){&sim_script_input_ops, &run->script};
+    run->wait = (struct ow_wait){&sim_script_wait_ops, &run->script};
+    run->config.input = &run->input;
+    run->config.wait = &run->wait;
+    run->config.end = OW_VIEWER_HOLD;
+    run->config.interval_us = run->settings.interval_ms * MS_US;
+    run->config.repeat_us = REPEAT_US;
+}
+
+static void open_panel(struct run *run)
+{
+    const struct settings *settings = &run->settings;
+    struct sim_panel_config config = {
+        .width = (uint16_t)settings->size[0],
+        .height = (uint16_t)settings->size[1],
+        .format = settings->format,
+        .kind = settings->panel,
+        .frame = output_frame,
+        .context = &run->output,
+    };
+    if (!sim_panel_open(&run->panel, &config)) {
+        fail(FAIL_INPUT, NULL, 0, "not enough memory for the panel");
+    }
+}
+
+/* Only trees with numbers can be drawn by number: 0 would mean two things. */
+static void check_tree(const struct run *run)
+{
+    if (run->settings.look.shade == OW_SHADE_ID && !(run->tree.tree.flags & OW_TREE_IDS)) {
+        fail(FAIL_INPUT, run->tree.name, 0,
+             "the tree has no polygon numbers, compile it with owc --keep-ids");
+    }
+}
+
+static void start_viewer(struct run *run)
+{
+    const struct settings *settings = &run->settings;
+    struct ow_viewer_config *config = &run->config;
+    run->clock = (struct ow_clock){&sim_virtual_clock_ops, &run->time};
+    config->tree = &run->tree.tree;
+    config->look = settings->look;
+    config->camera = run->views.lens;
+    config->views = run->views.count;
+    config->elevation = (ow_turn)lround(settings->elevation / 360 * 4294967296.0);
+    config->band_lines = (uint16_t)settings->band_lines;
+    config->panel = &run->panel.panel;
+    config->clock = &run->clock;
+    if (run->views.list != NULL) {
+        config->view = views_give;
+        config->view_context = &run->views;
+    }
+    if (settings->bench || settings->stats) {
+        config->probe = bench_probe;
+        config->probe_context = &run->bench;
+    }
+    uint32_t bytes = ow_viewer_bytes_needed(config);
+    run->memory = bytes == 0 ? NULL : malloc(bytes);
+    if (run->memory == NULL) {
+        fail(FAIL_INPUT, run->tree.name, 0, "not enough memory to draw this tree");
+    }
+    int status = ow_viewer_start(&run->viewer, config, run->memory, bytes);
+    if (status < 0) {
+        fail(FAIL_INPUT, run->tree.name, 0, "cannot start the viewer: %s",
+             ow_status_text(status));
+    }
+}
+
+/* ---- after each frame ---- */
+
+static void print_stats(const struct run *run, double ms)
+{
+    const struct ow_stats *stats = &run->viewer.stats;
+    fprintf(stderr,
+            "{\"frame\":%" PRIu32 ",\"ms\":%.6f,\"polygons_visited\":%" PRIu32
+            ",\"polygons_painted\":%" PRIu32 ",\"polygons_dropped\":%" PRIu32
+            ",\"pixels_written\":%" PRIu32 ",\"pixels_background\":%" PRIu32 ",\"spans\":%" PRIu32
+            "}\n",
+            run->viewer.frames - 1, ms, stats->polygons_visited, stats->polygons_painted,
+            stats->polygons_dropped, stats->pixels_written, stats->pixels_background,
+            stats->spans);
+}
+
+static void add_stats(struct run *run)
+{
+    const struct ow_stats *stats = &run->viewer.stats;
+    run->sum.polygons_visited += stats->polygons_visited;
+    run->sum.polygons_painted += stats->polygons_painted;
+    run->sum.pixels_written += stats->pixels_written;
+    run->sum.pixels_background += stats->pixels_background;
+    run->sum.spans += stats->spans;
+    run->sum.polygons_dropped += stats->polygons_dropped;
+    run->dropped += run->viewer.drawn == OW_CAPACITY;
+}
+
+static void after_frame(struct run *run, uint64_t drawn_ns)
+{
+    add_stats(run);
+    if (run->settings.stats) {
+        print_stats(run, (double)drawn_ns / 1e6);
+    }
+    if (run->dump != NULL) {
+        FILE *stream = outfile_stream(run->dump);
+        fputs(run->viewer.frames == 1 ? "[\n" : ",\n", stream);
+        views_dump(stream, run->viewer.frames - 1, &run->viewer.view);
+    }
+}
+
+/* One pass: every view, or the script to its end. */
+static void draw_all(struct run *run, bool first)
+{
+    while (!run->viewer.finished) {
+        uint64_t before_ns = run->bench.pass_ns;
+        int status = ow_viewer_step(&run->viewer);
+        if (status < 0) {
+            fail(FAIL_INPUT, run->tree.name, 0, "frame %" PRIu32 ": %s", run->viewer.frames,
+                 ow_status_text(status));
+        }
+        if (status > 0 && first) {
+            after_frame(run, run->bench.pass_ns - before_ns);
+        }
+    }
+}
+
+static void measure(struct run *run)
+{
+    uint32_t frames = run->viewer.frames;
+    run->output.off = true;
+    while (bench_end_pass(&run->bench, frames, run->settings.passes)) {
+        ow_viewer_restart(&run->viewer);
+        draw_all(run, false);
+    }
+    bench_print(&run->bench, &run->settings, frames, &run->sum, run->output.crc);
+}
+
+static void finish(struct run *run)
+{
+    output_end(&run->output);
+    if (run->dump != NULL) {
+        fputs("\n]\n", outfile_stream(run->dump));
+        outfile_commit(run->dump);
+    }
+    if (run->dropped > 0) {
+        warn_line(run->tree.name, 0, "%" PRIu32 " polygons were left out in %" PRIu32
+                  " frames: clipping gave them too many corners", run->sum.polygons_dropped,
+                  run->dropped);
+    }
+    if (run->panel.wrong != NULL) {
+        fail(FAIL_INPUT, NULL, 0, "the viewer broke the panel's contract: %s", run->panel.wrong);
+    }
+}
+
+static void close_all(struct run *run)
+{
+    free(run->memory);
+    sim_panel_close(&run->panel);
+    sim_script_free(&run->script);
+    views_free(&run->views);
+    tree_file_close(&run->tree);
+}
+
+int main(int argc, char **argv)
+{
+    static struct run run; /* large: names and times */
+    fail_set_program("owsim");
+    settings_read(&run.settings, argc, argv);
+    tree_file_open(&run.tree, run.settings.tree);
+    check_tree(&run);
+    views_make(&run.views, &run.settings, &run.tree);
+    if (run.settings.script != NULL) {
+        open_script(&run);
+    }
+    output_begin(&run.output, &run.settings, run.settings.script != NULL ? 0 : run.views.count);
+    if (run.settings.dump_views != NULL) {
+        run.dump = outfile_open(run.settings.dump_views);
+    }
+    open_panel(&run);
+    start_viewer(&run);
+    draw_all(&run, true);
+    finish(&run);
+    if (run.settings.bench) {
+        measure(&run);
+    }
+    bool equal = run.output.differ == 0;
+    if (run.settings.bench || run.settings.compare != NULL) {
+        outfile_commit(outfile_open("-")); /* a full disk behind standard output */
+    }
+    if (!equal) {
+        warn_line(run.settings.compare, 0, "%" PRIu32 " of %" PRIu32 " frames differ",
+                  run.output.differ, run.output.count);
+    }
+    close_all(&run);
+    return equal ? 0 : FAIL_INPUT;
+}

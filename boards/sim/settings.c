@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: 0BSD */
+/* owsim's command line. */
+#include "settings.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "output.h"
+#include "sim/image.h"
+#include "tools/common/fail.h"
+#include "tools/common/options.h"
+
+enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000 };
+
+/* Names in the order of the core's enums where there is one; the rest is not there yet. */
+static const char *const orders[] = {"back-to-front", "front-to-back", "auto", "scanline", NULL};
+static const char *const shades[] = {"id", "flat", "gouraud", "phong", "lines", NULL};
+static const char *const culls[] = {"auto", "back", "none", NULL};
+static const char *const formats[] = {"xrgb8888", "rgb565", "gray4", "mono", NULL};
+static const char *const coverages[] = {"none", "4x4", NULL};
+static const char *const panels[] = {"lend", "write", NULL};
+enum { ORDER_AUTO = 2, ORDERS_THERE = 3, SHADES_THERE = 2, FORMATS_THERE = 2 };
+
+static const struct ow_pixel_format *const pixel_formats[] = {&ow_format_xrgb8888,
+                                                              &ow_format_rgb565};
+static const enum sim_panel_kind panel_kinds[] = {SIM_PANEL_LENDS, SIM_PANEL_TAKES};
+
+static const char usage[] = "TREE.owt [view] [look] [-o PATTERN] [--sheet FILE] [--gif FILE]\n"
+                            "TREE.owt [view] [look] --bench | --compare DIR | --dump-views FILE";
+static const char about[] =
+    "Draws a compiled tree as the firmware would, on a simulated panel. TREE.owt may be -.\n"
+    "Right-handed axes, y up; polygons are seen from the side where they go counter-clockwise.";
+static const char notes[] =
+    "A view is --eye (with --at and --up), a file of --views, or the orbit's first one.\n"
+    "-o out-%04d.ppm (or .png) numbers the frames from 0; -o - writes PPMs to standard output.\n"
+    "--views: nine numbers a line, eye, at, up, separated by blanks or commas; # is a comment.\n"
+    "--script: one event a line, TIME CONTROL press|release|turn N|axis N; TIME in microseconds;\n"
+    "  CONTROL left, right, up, down, in, out, select, knob1, knob2, knob3, axis-x, ...\n"
+    "--bench prints one line of JSON: times of drawing alone, counts summed over the frames.\n"
+    "--compare: exit status 1 if a frame differs; writes NAME-actual and NAME-diff pictures.\n"
+    "--dump-views: the exact integers that each view is drawn by, as JSON; 64-bit ones as text.\n";
+
+/* What the options leave before they are put together. */
+struct raw {
+    int order;
+    int shade;
+    int cull;
+    int format;
+    int coverage;
+    int panel;
+    uint64_t threads;
+    const char *background;
+    double ambient;
+    double light[3];
+    bool light_in_model;
+    bool has_orbit;
+    bool has_up;
+    bool has_fov;
+    bool has_parallel;
+    bool has_near;
+    bool has_elevation;
+    bool has_interval;
+};
+
+static const struct option_table *the_table; /* for settings_wrong */
+
+void settings_wrong(const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    options_wrong(the_table, "%s", text);
+}
+
+const char *order_name(enum ow_order order)
+{
+    return orders[order];
+}
+
+const char *shade_name(enum ow_shade shade)
+{
+    return shades[shade];
+}
+
+/* ---- checks ---- */
+
+static void refuse_later(const char *option, const char *const *names, int choice, int there)
+{
+    if (choice >= there) {
+        settings_wrong("--%s %s is not there yet", option, names[choice]);
+    }
+}
+
+static uint32_t read_colour(const char *text)
+{
+    char *end;
+    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6) {
+        settings_wrong("--background takes six hexadecimal digits RRGGBB, not '%s'", text);
+    }
+    return (uint32_t)strtoul(text, &end, 16);
+}
+
+static void read_light(struct ow_light *light, const struct raw *raw)
+{
+    double length = sqrt(raw->light[0] * raw->light[0] + raw->light[1] * raw->light[1] +
+                         raw->light[2] * raw->light[2]);
+    if (!(length > 0) || !isfinite(length)) {
+        settings_wrong("--light takes the direction towards the light, not the zero vector");
+    }
+    for (int i = 0; i < 3; i++) {
+        light->direction_q14[i] = (int16_t)lround(raw->light[i] / length * ONE_Q14);
+    }
+    light->intensity_q8 = (uint16_t)lround((1 - raw->ambient) * ONE_Q8);
+    light->in_model_space = raw->light_in_model;
+}
+
+static void read_look(struct settings *settings, const struct raw *raw)
+{
+    refuse_later("order", orders, raw->order, ORDERS_THERE);
+    refuse_later("shade", shades, raw->shade, SHADES_THERE);
+    refuse_later("format", formats, raw->format, FORMATS_THERE);
+    refuse_later("aa", coverages, raw->coverage, 1);
+    if (raw->threads != 1) {
+        settings_wrong("--threads above 1 is not there yet");
+    }
+    struct ow_look *look = &settings->look;
+    look->order = raw->order == ORDER_AUTO ? OW_FRONT_TO_BACK : (enum ow_order)raw->order;
+    look->shade = (enum ow_shade)raw->shade;
+    look->cull = (enum ow_cull)raw->cull;
+    look->background = look->shade == OW_SHADE_ID ? 0 : read_colour(raw->background);
+    look->ambient_q8 = (uint16_t)lround(raw->ambient * ONE_Q8);
+    read_light(&look->light, raw);
+    settings->format = pixel_formats[raw->format];
+    settings->panel = panel_kinds[raw->panel];
+    if (look->shade == OW_SHADE_ID && settings->format != &ow_format_xrgb8888) {
+        settings_wrong("--shade id needs --format xrgb8888: numbers have 24 bits");
+    }
+}
+
+static void check_views(struct settings *settings, const struct raw *raw)
+{
+    if (settings->has_eye + raw->has_orbit + (settings->views != NULL) > 1) {
+        settings_wrong("--eye, --views and --orbit exclude each other");
+    }
+    if ((settings->has_at || raw->has_up) && !settings->has_eye) {
+        settings_wrong("--at and --up need --eye");
+    }
+    bool list = settings->has_eye || settings->views != NULL;
+    if (raw->has_elevation && list) {
+        settings_wrong("--elevation belongs to the orbit, leave out --eye and --views");
+    }
+    if (settings->script != NULL && list) {
+        settings_wrong("--script moves the eye on the orbit, leave out --eye and --views");
+    }
+    if (raw->has_parallel && (raw->has_fov || raw->has_near)) {
+        settings_wrong("--fov and --near belong to perspective, leave out --parallel");
+    }
+    if (raw->has_parallel && !(settings->parallel > 0)) {
+        settings_wrong("--parallel takes a height above 0");
+    }
+    if (raw->has_near && !(settings->near > 0)) {
+        settings_wrong("--near takes a distance above 0");
+    }
+}
+
+static bool is_stdout(const char *file)
+{
+    return file != NULL && strcmp(file, "-") == 0;
+}
+
+static void check_outputs(const struct settings *settings)
+{
+    bool anything = settings->output != NULL || settings->sheet != NULL ||
+                    settings->gif != NULL || settings->stats || settings->bench ||
+                    settings->compare != NULL || settings->dump_views != NULL;
+    int on_stdout = is_stdout(settings->output) + is_stdout(settings->sheet) +
+                    is_stdout(settings->gif) + is_stdout(settings->dump_views) +
+                    settings->bench + (settings->compare != NULL);
+    if (!anything) {
+        settings_wrong("nothing to do: give -o, --sheet, --gif, --stats, --bench or --compare");
+    }
+    if (on_stdout > 1) {
+        settings_wrong("only one output can go to standard output");
+    }
+    if (settings->bench && settings->script != NULL) {
+        settings_wrong("--bench measures views, leave out --script");
+    }
+    if (settings->passes != 0 && !settings->bench) {
+        settings_wrong("--passes needs --bench");
+    }
+    if (settings->diff_dir != NULL && settings->compare == NULL) {
+        settings_wrong("--diff-dir needs --compare");
+    }
+    if (settings->columns != 0 && settings->sheet == NULL) {
+        settings_wrong("--columns needs --sheet");
+    }
+    struct image_error error;
+    if (settings->gif != NULL && !image_has_gif()) {
+        settings_wrong("GIF is not built into this program");
+    }
+    if (settings->sheet != NULL && !is_stdout(settings->sheet) &&
+        image_format_of(settings->sheet, &error) == NULL) {
+        settings_wrong("--sheet %s: %s", settings->sheet, error.text);
+    }
+    struct pattern pattern;
+    if (settings->output != NULL && !is_stdout(settings->output) &&
+        (!pattern_read(&pattern, settings->output, &error) ||
+         image_format_of(settings->output, &error) == NULL)) {
+        settings_wrong("-o %s: %s", settings->output, error.text);
+    }
+}
+
+static void set_defaults(struct settings *settings, struct raw *raw)
+{
+    *settings = (struct settings){
+        .size = {320, 240},
+        .up = {0, 1, 0},
+        .fov = 45,
+        .orbit = 1,
+        .elevation = 15,
+        .interval_ms = 50,
+    };
+    *raw = (struct raw){
+        .order = OW_FRONT_TO_BACK,
+        .shade = OW_SHADE_FLAT,
+        .threads = 1,
+        .background = "20242c",
+        .ambient = 0.3,
+        .light = {-0.4, 0.6, 0.7},
+    };
+}
+
+void settings_read(struct settings *s, int argc, char **argv)
+{
+    struct raw raw;
+    set_defaults(s, &raw);
+    const struct option_spec specs[] = {
+        {"size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX},
+        {"eye", 0, OPTION_VECTOR, s->eye, "x,y,z", "where the eye is, in model units",
+         .given = &s->has_eye, .no_default = true},
+        {"at", 0, OPTION_VECTOR, s->at, "x,y,z", "what it looks at (the model's middle)",
+         .given = &s->has_at, .no_default = true},
+        {"up", 0, OPTION_VECTOR, s->up, "x,y,z", "what is up in the picture",
+         .given = &raw.has_up},
+        {"fov", 0, OPTION_DOUBLE, &s->fov, "DEG", "vertical field of view", .min = 1, .max = 170,
+         .given = &raw.has_fov},
+        {"parallel", 0, OPTION_DOUBLE, &s->parallel, "HEIGHT",
+         "parallel projection, what the picture's height shows", .given = &raw.has_parallel,
+         .no_default = true},
+        {"near", 0, OPTION_DOUBLE, &s->near, "D", "distance of the near plane (16 lattice steps)",
+         .given = &raw.has_near, .no_default = true},
+        {"orbit", 0, OPTION_UNSIGNED, &s->orbit, "N", "N views of one turn around the model",
+         .min = 1, .max = ORBIT_MAX, .given = &raw.has_orbit},
+        {"elevation", 0, OPTION_DOUBLE, &s->elevation, "DEG", "the orbit's height",
+         .min = -ELEVATION_MAX, .max = ELEVATION_MAX, .given = &raw.has_elevation},
+        {"views", 0, OPTION_STRING, &s->views, "FILE", .help = "views, one a line"},
+        {"script", 0, OPTION_STRING, &s->script, "FILE",
+         .help = "input events that turn the model"},
+        {"order", 0, OPTION_CHOICE, &raw.order, NULL, "the surface", .choices = orders},
+        {"shade", 0, OPTION_CHOICE, &raw.shade, NULL, "id: the source polygon's number",
+         .choices = shades},
+        {"cull", 0, OPTION_CHOICE, &raw.cull, NULL, "auto: as the tree was built",
+         .choices = culls},
+        {"format", 0, OPTION_CHOICE, &raw.format, NULL, "the panel's pixels",
+         .choices = formats},
+        {"aa", 0, OPTION_CHOICE, &raw.coverage, NULL, "coverage", .choices = coverages},
+        {"threads", 0, OPTION_UNSIGNED, &raw.threads, "N", "bands drawn at a time", .min = 1,
+         .max = 64},
+        {"background", 0, OPTION_STRING, &raw.background, "RRGGBB",
+         .help = "colour behind the model"},
+        {"ambient", 0, OPTION_DOUBLE, &raw.ambient, "A",
+         "share of the light from everywhere, the rest is directional", .min = 0, .max = 1},
+        {"light", 0, OPTION_VECTOR, raw.light, "x,y,z",
+         .help = "towards the light: right, up, to the viewer"},
+        {"light-in-model", 0, OPTION_FLAG, &raw.light_in_model, NULL,
+         .help = "--light is along the model's axes instead"},
+        {"output", 'o', OPTION_STRING, &s->output, "PATTERN", .help = "a picture of each frame"},
+        {"sheet", 0, OPTION_STRING, &s->sheet, "FILE", .help = "all frames on one picture"},
+        {"columns", 0, OPTION_UNSIGNED, &s->columns, "N", "of the sheet (about square)",
+         .min = 1, .max = 1000, .no_default = true},
+        {"gif", 0, OPTION_STRING, &s->gif, "FILE", .help = "an animated picture"},
+        {"interval", 0, OPTION_UNSIGNED, &s->interval_ms, "MS",
+         "between two frames, of the GIF and of a turn under --script", .min = 10, .max = 60000},
+        {"stats", 0, OPTION_FLAG, &s->stats, NULL,
+         .help = "one line of JSON a frame on standard error"},
+        {"bench", 0, OPTION_FLAG, &s->bench, NULL, .help = "measure, print one line of JSON"},
+        {"passes", 0, OPTION_UNSIGNED, &s->passes, "N",
+         "of the bench over all views (as many as a second allows)", .min = 1,
+         .max = BENCH_PASSES_MAX, .no_default = true},
+        {"compare", 0, OPTION_STRING, &s->compare, "DIR",
+         .help = "compare each frame with the picture of its name in DIR"},
+        {"diff-dir", 0, OPTION_STRING, &s->diff_dir, "DIR",
+         .help = "where --compare writes its pictures (beside -o, or here)"},
+        {"dump-views", 0, OPTION_STRING, &s->dump_views, "FILE",
+         .help = "the views' integers as JSON"},
+        {"panel", 0, OPTION_CHOICE, &raw.panel, NULL, "it lends its memory, or takes bands",
+         .choices = panels},
+        {"band", 0, OPTION_UNSIGNED, &s->band_lines, "LINES", "drawn at a time (all)", .min = 1,
+         .max = OW_SCREEN_MAX, .no_default = true},
+    };
+    static struct option_table table;
+    table = (struct option_table){usage, about, specs, sizeof specs / sizeof specs[0], 1, 1,
+                                  notes};
+    the_table = &table;
+    options_parse(&table, argc, argv, &s->tree);
+    read_look(s, &raw);
+    check_views(s, &raw);
+    check_outputs(s);
+}

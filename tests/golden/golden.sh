@@ -1,0 +1,124 @@
+#!/bin/bash
+# SPDX-License-Identifier: 0BSD
+# golden.sh: draws the golden scenes and compares the checksums of their frames with crc32.txt.
+# Each scene is drawn in both orders and in bands: all must agree. A scene without an entry fails,
+# an entry without a scene too. A failing scene leaves its frames in $O/golden.
+# GOLDEN_UPDATE=1 (make golden-update) writes crc32.txt anew.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+O=${O:-build}
+file=tests/golden/crc32.txt
+dir=$O/golden
+new=$dir/crc32.txt
+bad=0
+mkdir -p "$dir"
+
+# NAME: owgen's arguments: owc's: owsim's. A name may draw an earlier one's model: `=NAME`.
+scenes() {
+    cat <<'SCENES'
+cubes:           cubes:                    --keep-ids:        --orbit 8 --size 160x120
+cubes-id:        =cubes:                   :                  --orbit 8 --size 160x120 --shade id
+cubes-565:       =cubes:                   :                  --orbit 8 --size 160x120 --format rgb565
+cubes-odd:       =cubes:                   :                  --orbit 4 --size 101x77
+cubes-pixel:     =cubes:                   :                  --orbit 4 --size 1x1
+cubes-parallel:  =cubes:                   :                  --orbit 4 --size 160x120 --parallel 4
+cubes-wide:      =cubes:                   :                  --orbit 4 --size 160x120 --fov 120
+cubes-above:     =cubes:                   :                  --orbit 4 --size 160x120 --elevation 80
+cubes-light:     =cubes:                   :                  --orbit 4 --size 160x120 --light 1,0,0 --light-in-model --ambient 0.1 --background 400000
+oldwell-low:     oldwell --detail low:     --keep-ids:        --orbit 8 --size 160x120
+oldwell-high:    oldwell --detail high:    --keep-ids:        --orbit 8 --size 320x240
+oldwell-id:      =oldwell-high:            :                  --orbit 8 --size 320x240 --shade id
+oldwell-inside:  =oldwell-high:            :                  --views tests/golden/oldwell-inside.txt --size 160x120
+klein:           klein:                    --keep-ids:        --orbit 8 --size 160x120
+ribbon:          ribbon:                   --keep-ids:        --orbit 8 --size 160x120
+atoms:           atoms:                    --keep-ids:        --orbit 8 --size 160x120
+robot:           robot:                    --keep-ids:        --orbit 8 --size 160x120
+vise:            vise:                     --keep-ids:        --orbit 8 --size 160x120
+house:           house:                    --keep-ids:        --orbit 8 --size 160x120
+random:          random --count 60 --size 500 --seed 1:   --keep-ids:  --parallel 1000 --eye 500,500,2000 --at 500,500,500 --up 0,1,0 --size 200x200
+parallel:        parallel --count 300 --size 500 --seed 1: --keep-ids: --parallel 1000 --eye 500,500,2000 --at 500,500,500 --up 0,1,0 --size 200x200
+SCENES
+}
+
+trim() {
+    local s=$1
+    s=${s#"${s%%[! ]*}"}
+    echo "${s%"${s##*[! ]}"}"
+}
+
+# crc TREE OPTION...: the checksum that --bench reports.
+crc() {
+    "$O/owsim" "$@" --passes 1 --bench | sed -E 's/.*"crc32":([0-9]+).*/\1/'
+}
+
+# tree NAME MODEL COMPILE: makes the scene's tree, or finds an earlier one's.
+tree() {
+    local model compile
+    read -ra model <<<"$2"
+    read -ra compile <<<"$3"
+    if [[ $2 == =* ]]; then
+        echo "$dir/${2#=}.owt"
+        return
+    fi
+    "$O/owgen" "${model[@]}" -o "$dir/$1.obj" &&
+        "$O/owc" "$dir/$1.obj" -o "$dir/$1.owt" --method bsp --seed 1 "${compile[@]}" &&
+        echo "$dir/$1.owt"
+}
+
+fails() { # NAME WHY
+    echo "not ok $1: $2"
+    bad=1
+}
+
+# scene NAME MODEL COMPILE VIEW: draws one and reports.
+scene() {
+    local name=$1 owt view got other expected
+    read -ra view <<<"$4"
+    if ! owt=$(tree "$1" "$2" "$3"); then
+        fails "$name" "the model cannot be made or compiled"
+        return
+    fi
+    if ! got=$(crc "$owt" "${view[@]}"); then
+        fails "$name" "it cannot be drawn"
+        return
+    fi
+    for other in "--order back-to-front" "--panel write --band 1" "--panel write --band 50"; do
+        # shellcheck disable=SC2086 # an option and its value
+        if [ "$(crc "$owt" "${view[@]}" $other)" != "$got" ]; then
+            mkdir -p "$dir/other"
+            "$O/owsim" "$owt" "${view[@]}" -o "$dir/$name-%04d.png"
+            # shellcheck disable=SC2086
+            "$O/owsim" "$owt" "${view[@]}" $other -o "$dir/other/$name-%04d.png" \
+                --compare "$dir" || true
+            fails "$name" "$other draws another picture: see $dir/other/$name-*.png"
+            return
+        fi
+    done
+    printf '%s %s\n' "$name" "$got" >>"$new"
+    expected=$(awk -v name="$name" '$1 == name { print $2 }' "$file" 2>/dev/null || true)
+    if [ "${GOLDEN_UPDATE:-0}" = 1 ] || [ "$got" = "$expected" ]; then
+        echo "ok $name"
+        return
+    fi
+    "$O/owsim" "$owt" "${view[@]}" -o "$dir/$name-%04d.ppm"
+    if [ -z "$expected" ]; then
+        fails "$name" "there is no entry in $file; the frames are in $dir/$name-*.ppm"
+    else
+        fails "$name" "checksum $got, expected $expected; the frames are in $dir/$name-*.ppm"
+    fi
+}
+
+: >"$new"
+while IFS=: read -r name model compile view; do
+    scene "$(trim "$name")" "$(trim "$model")" "$(trim "$compile")" "$(trim "$view")"
+done < <(scenes)
+
+# Entries that no scene stands behind any more.
+while read -r name _; do
+    scenes | grep -q "^$name:" || fails "$name" "$file has an entry, but there is no such scene"
+done < <(cat "$file" 2>/dev/null || true)
+
+if [ "${GOLDEN_UPDATE:-0}" = 1 ] && [ "$bad" = 0 ]; then
+    cp "$new" "$file"
+fi
+exit "$bad"

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: 0BSD */
+/* From a model to a blob: clean, plane records, tree, repair, blob, and the core's own check. */
+#include "compile.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "arrangement.h"
+#include "clean.h"
+#include "ow_tree.h"
+#include "pieces.h"
+#include "plane.h"
+#include "progress.h"
+#include "repair.h"
+#include "tools/common/xalloc.h"
+#include "tree.h"
+
+/* All that the stages hand on. */
+struct compiler {
+    const struct compile_options *options;
+    struct mesh mesh;
+    struct planes planes;
+    struct arrangement arrangement;
+    struct pieces pieces;
+    struct tree tree;
+    struct repaired repaired;
+    bool two_sided;
+};
+
+static void build_tree(struct compiler *c)
+{
+    struct progress progress;
+    struct bsp_options bsp = { c->options->select, c->options->candidates, c->options->seed,
+                               c->two_sided };
+    progress_begin(&progress, c->options->progress);
+    bsp_build(&c->tree, &c->arrangement, &c->pieces, &bsp, &progress);
+    progress_end(&progress);
+}
+
+/* Which pieces are faces of the tree. */
+static bool *find_drawn(const struct compiler *c)
+{
+    bool *drawn = xalloc_zero(c->pieces.count, sizeof *drawn);
+    tree_item ends[3];
+    for (size_t i = 0; i < c->tree.item_count; i++) {
+        if (tree_item_tag(c->tree.items[i]) != OW_ITEM_NODE) {
+            drawn[tree_item_value(c->tree.items[i])] = true;
+        }
+    }
+    for (uint32_t i = 0; i <= c->tree.node_count; i++) {
+        bool root = i == c->tree.node_count;
+        ends[0] = root ? c->tree.root : c->tree.nodes[i].front;
+        ends[1] = root ? OW_ITEM_NONE : c->tree.nodes[i].back;
+        for (int k = 0; k < 2; k++) {
+            if (ends[k] != OW_ITEM_NONE && tree_item_tag(ends[k]) != OW_ITEM_NODE) {
+                drawn[tree_item_value(ends[k])] = true;
+            }
+        }
+    }
+    return drawn;
+}
+
+static void repair_and_prune(struct compiler *c)
+{
+    bool *drawn = find_drawn(c);
+    uint32_t *plane_of = xalloc(c->pieces.count, sizeof *plane_of);
+    for (uint32_t i = 0; i < c->pieces.count; i++) {
+        plane_of[i] = c->pieces.all[i].record;
+    }
+    repair_pieces(&c->repaired, &c->arrangement, &c->pieces, &c->mesh, drawn);
+    tree_prune(&c->tree, c->repaired.first, plane_of);
+    free(drawn);
+    free(plane_of);
+}
+
+static bool write_checked(struct compiler *c, struct blob *blob, const struct model *model,
+                          struct problem *problem)
+{
+    struct blob_parts parts = { .mesh = &c->mesh,
+                                .planes = &c->planes,
+                                .pieces = &c->pieces,
+                                .repaired = &c->repaired,
+                                .tree = &c->tree,
+                                .colours = model->colours,
+                                .colour_count = (uint32_t)model->colour_count,
+                                .tolerance_q8 = c->options->tolerance_q8,
+                                .two_sided = c->two_sided,
+                                .switch_only = true,
+                                .keep_ids = c->options->keep_ids };
+    if (!blob_write(blob, &parts, problem)) {
+        return false;
+    }
+    struct ow_tree tree;
+    enum ow_status status = ow_tree_open(&tree, blob->bytes, blob->size);
+    return status == OW_OK || problem_set(problem, 0,
+                                          "a defect of this program: its tree was refused (%s)",
+                                          ow_status_text(status));
+}
+
+static void fill_stats(const struct compiler *c, const struct model *model,
+                       struct compile_stats *stats)
+{
+    *stats = (struct compile_stats){
+        .source_polygons = (uint32_t)model->polygon_count,
+        .input_polygons = c->mesh.polygon_count,
+        .degenerate_dropped = c->mesh.degenerate_dropped,
+        .degenerate_kept = c->mesh.degenerate_kept,
+        .repeated_dropped = c->mesh.repeated_dropped,
+        .uneven_cut = c->mesh.uneven_cut,
+        .lines_dropped = model->lines_dropped,
+        .planes = c->planes.count,
+        .shared_planes = c->planes.shared,
+        .splits = c->pieces.splits,
+        .vanished = c->repaired.vanished,
+        .inserted = c->repaired.inserted,
+        .uneven = c->repaired.uneven,
+        .long_cut = c->repaired.long_cut,
+        .rounded_meetings = c->arrangement.rounded,
+        .relations = c->tree.relations,
+        .closed = c->mesh.closed,
+        .two_sided = c->two_sided,
+    };
+}
+
+static bool run_stages(struct compiler *c, struct blob *blob, struct compile_stats *stats,
+                       const struct model *model, struct problem *problem)
+{
+    if (!clean_model(&c->mesh, model, c->options->keep_normals, problem)) {
+        return false;
+    }
+    c->two_sided = c->options->sides == SIDES_TWO ||
+                   (c->options->sides == SIDES_AUTO && !c->mesh.closed);
+    plane_group(&c->planes, &c->mesh, model, c->options->tolerance_q8);
+    arrangement_begin(&c->arrangement, &c->mesh, &c->planes);
+    pieces_begin(&c->pieces, &c->mesh, &c->arrangement);
+    build_tree(c);
+    repair_and_prune(c);
+    bool fine = write_checked(c, blob, model, problem);
+    fill_stats(c, model, stats);
+    return fine;
+}
+
+bool compile_model(struct blob *blob, struct compile_stats *stats, const struct model *model,
+                   const struct compile_options *options, struct problem *problem)
+{
+    struct compiler compiler;
+    memset(&compiler, 0, sizeof compiler);
+    compiler.options = options;
+    *blob = (struct blob){ 0 };
+    bool fine = run_stages(&compiler, blob, stats, model, problem);
+    repaired_free(&compiler.repaired);
+    tree_free(&compiler.tree);
+    pieces_free(&compiler.pieces);
+    arrangement_free(&compiler.arrangement);
+    planes_free(&compiler.planes);
+    mesh_free(&compiler.mesh);
+    return fine;
+}

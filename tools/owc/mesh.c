@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: 0BSD */
+/* The model on the lattice. */
+#include "mesh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void mesh_free(struct mesh *mesh)
+{
+    free(mesh->points);
+    free(mesh->polygons);
+    free(mesh->corners);
+    free(mesh->marks);
+    free(mesh->normals);
+    free(mesh->sources);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+void mesh_area(const int16_t (*points)[3], const uint32_t *corners, uint32_t count,
+               int64_t area[3])
+{
+    const int16_t *o = points[corners[0]];
+    area[0] = area[1] = area[2] = 0;
+    for (uint32_t i = 1; i + 1 < count; i++) {
+        int64_t a[3];
+        int64_t b[3];
+        for (int k = 0; k < 3; k++) {
+            a[k] = points[corners[i]][k] - o[k];
+            b[k] = points[corners[i + 1]][k] - o[k];
+        }
+        area[0] += a[1] * b[2] - a[2] * b[1];
+        area[1] += a[2] * b[0] - a[0] * b[2];
+        area[2] += a[0] * b[1] - a[1] * b[0];
+    }
+}

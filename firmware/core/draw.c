@@ -10,6 +10,7 @@
 #include "ow_project.h"
 #include "ow_scan.h"
 #include "ow_shade.h"
+#include "ow_skip.h"
 #include "ow_surface.h"
 
 /* What one call of ow_draw works with. */
@@ -22,6 +23,7 @@ struct frame {
     bool shaded;     /* the surface has this face's colour or gradient */
     bool clipped;    /* the clipper has made the lights of its corners */
     struct ow_gradient gradient;
+    struct ow_frustum frustum;
     const struct ow_tree *tree;
     const struct ow_view *view;
     struct ow_workspace *workspace;
@@ -39,22 +41,17 @@ static inline uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t 
                                            : ow_read_u16(tree->bytes, first + 2 * i);
 }
 
-/* A vertex's place on the screen, from the cache or computed into it. */
-static inline struct ow_outline_point screen_vertex(const struct frame *frame, uint32_t vertex)
+/* Computes a vertex's place on the screen into its entry of the cache. */
+static void project_vertex(const struct frame *frame, uint32_t vertex,
+                           struct ow_cached_vertex *cached)
 {
-    struct ow_workspace *workspace = frame->workspace;
-    struct ow_cached_vertex *cached = &workspace->cache[vertex & workspace->cache_mask];
-    uint32_t tag = frame->tag | vertex;
-    if (cached->tag != tag) {
-        struct ow_camera_point p = ow_to_camera(frame->tree, frame->view, vertex);
-        cached->tag = tag;
-        if (ow_is_inside(frame->view, p)) {
-            cached->point = ow_to_screen(frame->view, p);
-        } else {
-            cached->point.x = OW_CLIP_FIRST;
-        }
+    struct ow_camera_point p = ow_to_camera(frame->tree, frame->view, vertex);
+    cached->tag = frame->tag | vertex;
+    if (ow_is_inside(frame->view, p)) {
+        cached->point = ow_to_screen(frame->view, p);
+    } else {
+        cached->point.x = OW_CLIP_FIRST;
     }
-    return cached->point;
 }
 
 /* The face's outline by way of the clipper. Returns its count of points, 0 for none. */
@@ -88,14 +85,22 @@ static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, ui
 static inline bool look_up_corners(const struct frame *frame, const uint8_t *corner_bytes,
                                    uint32_t corners, bool wide, bool reverse)
 {
+    struct ow_cached_vertex *cache = frame->workspace->cache;
+    const uint32_t mask = frame->workspace->cache_mask;
+    const uint32_t tag = frame->tag;
+    const int32_t step = reverse ? -1 : 1;
     struct ow_outline_point *out = frame->workspace->outline + (reverse ? corners - 1 : 0);
-    for (uint32_t i = 0; i < corners; i++) {
+    for (uint32_t i = 0; i < corners; i++, out += step) {
         uint32_t vertex = wide ? ow_read_u32(corner_bytes, 4 * i) : ow_read_u16(corner_bytes, 2 * i);
-        *out = screen_vertex(frame, vertex);
-        if (out->x == OW_CLIP_FIRST) {
+        struct ow_cached_vertex *cached = &cache[vertex & mask];
+        if (cached->tag != (tag | vertex)) {
+            project_vertex(frame, vertex, cached);
+        }
+        struct ow_outline_point point = cached->point;
+        if (point.x == OW_CLIP_FIRST) {
             return false;
         }
-        out += reverse ? -1 : 1;
+        *out = point;
     }
     return true;
 }
@@ -145,6 +150,17 @@ static void paint(struct ow_span_sink *sink)
     }
     frame->kind->take(surface, sink->spans, sink->count);
     sink->count = 0;
+}
+
+/* The walk asks: can nothing of what is below this node be seen? */
+static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bounds_at)
+{
+    const struct frame *frame = context;
+    struct ow_bounds bounds = ow_read_bounds(tree, bounds_at);
+    struct ow_box box;
+    return (frame->rule == OW_WINDING_POSITIVE && ow_cone_looks_away(frame->view, &bounds)) ||
+           !ow_sphere_box(&frame->frustum, &bounds, &frame->window, &box) ||
+           (frame->kind->hides != NULL && frame->kind->hides(&frame->surface, &box));
 }
 
 static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stats *stats)
@@ -241,9 +257,12 @@ enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
     frame.surface.gradient = ow_shade_is_smooth(look->shade) ? &frame.gradient : NULL;
     uint32_t background = target->format->pack(look->background);
     kind->begin(&frame.surface, background);
+    ow_frustum_make(&frame.frustum, view);
+    walk.skip = (struct ow_walk_skip){hides_node, &frame};
     draw_faces(&frame, &walk, &counted);
     kind->end(&frame.surface, background);
     counted.polygons_visited = walk.faces_met;
+    counted.nodes_skipped = walk.nodes_skipped;
     counted.pixels_written = frame.surface.pixels_written;
     counted.pixels_background = frame.surface.pixels_background;
     counted.spans = frame.surface.spans_written;

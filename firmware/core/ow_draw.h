@@ -63,6 +63,7 @@ struct ow_stats {
     uint32_t pixels_written;    /* by the model */
     uint32_t pixels_background;
     uint32_t spans;             /* runs of pixels written by the model */
+    uint32_t nodes_skipped;     /* bounded nodes out of view, facing away or covered */
     uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
 };
 

@@ -51,6 +51,7 @@ struct ow_box {
     int32_t right;
     int32_t line;
     int32_t end_line;
+    bool is_small; /* the outline reaches less than 512 pixels on each axis */
 };
 
 /* Receives spans: line by line, from left to right, at most capacity at a time. */

@@ -34,6 +34,15 @@ struct ow_walk_entry {
     uint32_t left;
 };
 
+/*
+ * Asked at each bounded node: true leaves out the node and all below it.
+ * bounds_at: byte offset of the node's bounds.
+ */
+struct ow_walk_skip {
+    bool (*hides)(void *context, const struct ow_tree *tree, uint32_t bounds_at);
+    void *context;
+};
+
 /* Private to walk.c, here so that the caller can place it. */
 struct ow_walk {
     const struct ow_tree *tree;
@@ -43,6 +52,8 @@ struct ow_walk {
     uint32_t run_at;  /* the items being read */
     uint32_t run_left;
     uint32_t faces_met; /* all faces the walk came by, rejected ones included */
+    uint32_t nodes_skipped;
+    struct ow_walk_skip skip; /* set between begin and the first next; hides NULL: never */
     enum ow_direction direction;
     bool fronts_only;      /* skip OW_ITEM_REVERSE */
     bool reject_backs;     /* skip faces that surely look away */

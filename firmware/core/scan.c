@@ -21,6 +21,16 @@ static inline int32_t first_centre(ow_sub4 coordinate)
     return (coordinate - HALF + SUB - 1) >> SUB_BITS;
 }
 
+static inline ow_sub4 least(ow_sub4 a, ow_sub4 b)
+{
+    return a < b ? a : b;
+}
+
+static inline ow_sub4 most(ow_sub4 a, ow_sub4 b)
+{
+    return a > b ? a : b;
+}
+
 /* floor(n / d), and what is left. */
 static inline int32_t divide(int32_t n, uint32_t d, uint32_t *rest)
 {
@@ -312,76 +322,88 @@ static inline int64_t side_of(struct ow_outline_point a, struct ow_outline_point
     return (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
 }
 
-static inline void swap_if_above(struct ow_outline_point *a, struct ow_outline_point *b)
+/* True if the two had to be exchanged. */
+static inline bool swap_if_above(struct ow_outline_point *a, struct ow_outline_point *b)
 {
-    if (b->y < a->y) {
-        struct ow_outline_point swap = *a;
-        *a = *b;
-        *b = swap;
+    if (b->y >= a->y) {
+        return false;
     }
+    struct ow_outline_point swap = *a;
+    *a = *b;
+    *b = swap;
+    return true;
 }
 
-/* An edge as a half plane: not negative at the pixel centres that are on its inner side. */
-struct half_plane {
-    int32_t value; /* at the line's first pixel */
-    int32_t right; /* what a pixel to the right adds */
-    int32_t down;  /* what a line down adds */
+/* An edge of a low triangle: on the current line it crosses at pixel place / whole. */
+struct low_edge {
+    uint32_t place;
+    uint32_t whole;
+    uint32_t step; /* added to place for each line; modulo 2^32 */
 };
 
-/* Centres on the edge are inside where they count as right of it or below it. */
-static inline struct half_plane half_plane(struct ow_outline_point p, struct ow_outline_point q,
-                                           int32_t x, int32_t y)
+/* The edge from p down to q on a line that it crosses; pixels are counted from the origin. */
+static inline struct low_edge low_edge(struct ow_outline_point p, struct ow_outline_point q,
+                                       int32_t line, ow_sub4 origin)
 {
     int32_t dx = q.x - p.x;
     int32_t dy = q.y - p.y;
-    int32_t on_edge = dy > 0 || (dy == 0 && dx < 0) ? 0 : 1;
-    return (struct half_plane){dy * (x - p.x) - dx * (y - p.y) - on_edge, SUB * dy, -SUB * dx};
+    int32_t down = line * SUB + HALF - p.y;
+    /* (x - 8) / 16 rounded up, which adds 16 - 1/dy. What is crossed lies right of the origin. */
+    int32_t place = (p.x - origin + HALF) * dy + down * dx - 1;
+    return (struct low_edge){(uint32_t)place, (uint32_t)(SUB * dy), (uint32_t)(SUB * dx)};
 }
 
-/* A few pixels: each is held against the three edges; no division. Fronts only. */
-static void scan_small_triangle(const struct ow_outline_point *p, const struct ow_box *box,
-                                struct ow_span_sink *sink)
+static inline struct ow_span *low_lines(struct ow_span *span, struct low_edge *left,
+                                        struct low_edge *right, int32_t line, int32_t stop,
+                                        int32_t origin_pixel, const struct ow_box *box)
 {
-    int32_t x = box->left * SUB + HALF;
-    int32_t y = box->line * SUB + HALF;
-    struct half_plane a = half_plane(p[0], p[1], x, y);
-    struct half_plane b = half_plane(p[1], p[2], x, y);
-    struct half_plane c = half_plane(p[2], p[0], x, y);
-    for (int32_t line = box->line; line < box->end_line; line++) {
-        int32_t va = a.value;
-        int32_t vb = b.value;
-        int32_t vc = c.value;
-        int32_t first = box->left;
-        for (; first < box->right && (va | vb | vc) < 0; first++) {
-            va += a.right;
-            vb += b.right;
-            vc += c.right;
-        }
-        int32_t end = first;
-        for (; end < box->right && (va | vb | vc) >= 0; end++) {
-            va += a.right;
-            vb += b.right;
-            vc += c.right;
-        }
+    for (; line < stop; line++) {
+        int32_t first = origin_pixel + (int32_t)(left->place / left->whole);
+        int32_t end = origin_pixel + (int32_t)(right->place / right->whole);
+        left->place += left->step;
+        right->place += right->step;
+        first = most(first, box->left);
+        end = least(end, box->right);
         if (first < end) {
-            sink->spans[sink->count++] =
-                (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
+            *span++ = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
         }
-        a.value += a.down;
-        b.value += b.down;
-        c.value += c.down;
     }
+    return span;
 }
 
-/* One edge from top to bottom on one side, two on the other. */
-static void scan_triangle(struct ow_outline_point a, struct ow_outline_point b,
-                          struct ow_outline_point c, const struct ow_box *box,
-                          struct ow_span_sink *sink)
+/*
+ * A triangle of few lines: on each, two divisions find where it is crossed,
+ * which is less work than making edges ready to step. a, b, c from top to bottom.
+ */
+static void scan_low_triangle(struct ow_outline_point a, struct ow_outline_point b,
+                              struct ow_outline_point c, bool b_is_right, const struct ow_box *box,
+                              struct ow_span_sink *sink)
 {
-    swap_if_above(&a, &b);
-    swap_if_above(&b, &c);
-    swap_if_above(&a, &b);
-    bool b_is_right = side_of(a, b, c) > 0;
+    int32_t origin_pixel = least(a.x, least(b.x, c.x)) >> SUB_BITS;
+    ow_sub4 origin = origin_pixel * SUB;
+    int32_t line = box->line;
+    int32_t bend = least(first_centre(b.y), box->end_line);
+    struct low_edge whole = low_edge(a, c, line, origin);
+    struct ow_span *span = sink->spans;
+    if (line < bend) {
+        struct low_edge part = low_edge(a, b, line, origin);
+        span = b_is_right ? low_lines(span, &whole, &part, line, bend, origin_pixel, box)
+                          : low_lines(span, &part, &whole, line, bend, origin_pixel, box);
+        line = bend;
+    }
+    if (line < box->end_line) {
+        struct low_edge part = low_edge(b, c, line, origin);
+        span = b_is_right ? low_lines(span, &whole, &part, line, box->end_line, origin_pixel, box)
+                          : low_lines(span, &part, &whole, line, box->end_line, origin_pixel, box);
+    }
+    sink->count = (uint32_t)(span - sink->spans);
+}
+
+/* One edge from top to bottom on one side, two on the other. a, b, c from top to bottom. */
+static void scan_high_triangle(struct ow_outline_point a, struct ow_outline_point b,
+                               struct ow_outline_point c, bool b_is_right,
+                               const struct ow_box *box, struct ow_span_sink *sink)
+{
     int32_t line = box->line;
     struct ow_scan_edge whole;
     struct ow_scan_edge part;
@@ -398,37 +420,29 @@ static void scan_triangle(struct ow_outline_point a, struct ow_outline_point b,
 }
 
 enum {
-    SMALL_WIDTH = 8, /* pixels: up to here testing each is cheaper than stepping edges */
-    SMALL_EDGE = 64 * SUB /* 1/16 pixels: keeps half planes within 32 bits by far */
+    LOW_LINES = 16, /* up to here dividing on each line is cheaper than setting up steps */
+    LOW_REACH = 512 * SUB /* 1/16 pixels: so a low edge's place is below 2^28 */
 };
 
-static inline ow_sub4 least(ow_sub4 a, ow_sub4 b)
-{
-    return a < b ? a : b;
-}
-
-static inline ow_sub4 most(ow_sub4 a, ow_sub4 b)
-{
-    return a > b ? a : b;
-}
-
 /* Triangles are most of most models, and most of them are small. */
-static void scan_triangles(const struct ow_outline_point *p, enum ow_winding rule,
-                           const struct ow_box *box, struct ow_span_sink *sink)
+static void scan_triangle(const struct ow_outline_point *p, enum ow_winding rule,
+                          const struct ow_box *box, struct ow_span_sink *sink)
 {
-    int64_t side = side_of(p[0], p[1], p[2]);
+    struct ow_outline_point a = p[0];
+    struct ow_outline_point b = p[1];
+    struct ow_outline_point c = p[2];
+    int64_t side = side_of(a, b, c);
     if (side >= 0 && (rule == OW_WINDING_POSITIVE || side == 0)) {
         return; /* a back, or nothing */
     }
-    ow_sub4 left = least(p[0].x, least(p[1].x, p[2].x));
-    ow_sub4 right = most(p[0].x, most(p[1].x, p[2].x));
-    ow_sub4 top = least(p[0].y, least(p[1].y, p[2].y));
-    ow_sub4 bottom = most(p[0].y, most(p[1].y, p[2].y));
-    if (side < 0 && box->right - box->left <= SMALL_WIDTH && right - left < SMALL_EDGE &&
-        bottom - top < SMALL_EDGE) {
-        scan_small_triangle(p, box, sink);
+    bool b_is_right = side > 0;
+    b_is_right ^= swap_if_above(&a, &b);
+    b_is_right ^= swap_if_above(&b, &c);
+    b_is_right ^= swap_if_above(&a, &b);
+    if (box->is_small && box->end_line - box->line <= LOW_LINES) {
+        scan_low_triangle(a, b, c, b_is_right, box, sink);
     } else {
-        scan_triangle(p[0], p[1], p[2], box, sink);
+        scan_high_triangle(a, b, c, b_is_right, box, sink);
     }
 }
 
@@ -452,11 +466,12 @@ static void scan_outline(const struct ow_outline_point *points, uint32_t count,
 bool ow_outline_box(const struct ow_outline_point *points, uint32_t count,
                     const struct ow_window *window, struct ow_box *box)
 {
-    ow_sub4 min_x = points[0].x;
-    ow_sub4 max_x = min_x;
-    ow_sub4 min_y = points[0].y;
-    ow_sub4 max_y = min_y;
-    for (uint32_t i = 1; i < count; i++) {
+    /* A triangle's bounds without a loop: this is asked of every face. */
+    ow_sub4 min_x = least(points[0].x, least(points[1].x, points[2].x));
+    ow_sub4 max_x = most(points[0].x, most(points[1].x, points[2].x));
+    ow_sub4 min_y = least(points[0].y, least(points[1].y, points[2].y));
+    ow_sub4 max_y = most(points[0].y, most(points[1].y, points[2].y));
+    for (uint32_t i = 3; i < count; i++) {
         min_x = least(min_x, points[i].x);
         max_x = most(max_x, points[i].x);
         min_y = least(min_y, points[i].y);
@@ -466,6 +481,7 @@ bool ow_outline_box(const struct ow_outline_point *points, uint32_t count,
     box->right = least(first_centre(max_x), window->width);
     box->line = most(first_centre(min_y), window->first_line);
     box->end_line = least(first_centre(max_y), window->end_line);
+    box->is_small = (max_x - min_x) < LOW_REACH && (max_y - min_y) < LOW_REACH;
     return box->left < box->right && box->line < box->end_line;
 }
 
@@ -473,7 +489,7 @@ void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_wind
              const struct ow_box *box, struct ow_scan_edge *edges, struct ow_span_sink *sink)
 {
     if (count == 3) {
-        scan_triangles(points, rule, box, sink);
+        scan_triangle(points, rule, box, sink);
     } else {
         scan_outline(points, count, rule, box, edges, sink);
     }

@@ -121,6 +121,12 @@ static void enter(struct ow_walk *walk, uint32_t at)
 {
     uint32_t rest_at;
     uint32_t word = node_word(walk->tree->bytes, at, &rest_at);
+    if ((word & OW_NODE_BOUNDED) && walk->skip.hides != NULL &&
+        walk->skip.hides(walk->skip.context, walk->tree, at + OW_NODE_WORD_BYTES)) {
+        walk->nodes_skipped++;
+        walk->run_left = 0;
+        return;
+    }
     if ((word & OW_NODE_KIND_MASK) == OW_NODE_SEQUENCE) {
         run(walk, rest_at, word >> OW_NODE_COUNT_SHIFT);
         return;
@@ -145,11 +151,14 @@ enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
     walk->stack = stack;
     walk->entries = 0;
     walk->faces_met = 0;
+    walk->nodes_skipped = 0;
+    walk->skip = (struct ow_walk_skip){NULL, NULL};
     walk->direction = direction;
     walk->fronts_only = cull == OW_CULL_BACK;
     walk->reject_backs = !outline_decides;
     make_facing(walk, view);
-    enter(walk, tree->nodes_at);
+    walk->run_left = 0;
+    push(walk, tree->nodes_at, 0); /* a rest of no items: the root is entered first */
     return OW_OK;
 }
 
@@ -158,8 +167,12 @@ static void resume(struct ow_walk *walk)
 {
     struct ow_walk_entry entry = walk->stack[--walk->entries];
     if (!(entry.left & PENDING)) {
-        walk->run_at = entry.at;
-        walk->run_left = entry.left;
+        if (entry.left == 0) {
+            enter(walk, entry.at);
+        } else {
+            walk->run_at = entry.at;
+            walk->run_left = entry.left;
+        }
         return;
     }
     uint32_t rest_at;

@@ -6,25 +6,25 @@
 
 enum {
     AXIS_BITS = 15,
-    TILT_LIMIT = 89,  /* degrees: at the pole `up` would be parallel to the view */
-    ZOOM_LIMIT = 24,  /* levels: (17/16)^24 is about 4.3 */
+    TILT_LIMIT = 89,   /* degrees: at the pole `up` would be parallel to the view */
+    ZOOM_LIMIT = 24,   /* levels: (17/16)^24 is about 4.3 */
     EVENTS_A_STEP = 64 /* a noisy control may not keep the loop from drawing */
 };
 
 const struct ow_binding ow_default_bindings[] = {
-    {OW_CONTROL_LEFT, OW_ACTION_TURN, -10 * DEGREE},
-    {OW_CONTROL_RIGHT, OW_ACTION_TURN, 10 * DEGREE},
-    {OW_CONTROL_UP, OW_ACTION_TILT, 5 * DEGREE},
-    {OW_CONTROL_DOWN, OW_ACTION_TILT, -5 * DEGREE},
-    {OW_CONTROL_IN, OW_ACTION_ZOOM, 1},
-    {OW_CONTROL_OUT, OW_ACTION_ZOOM, -1},
-    {OW_CONTROL_KNOB_1, OW_ACTION_TURN, 5 * DEGREE},
-    {OW_CONTROL_KNOB_2, OW_ACTION_TILT, 5 * DEGREE},
-    {OW_CONTROL_KNOB_3, OW_ACTION_ZOOM, 1},
-    {OW_CONTROL_AXIS_X, OW_ACTION_TURN, 180 * (DEGREE - 1)},
-    {OW_CONTROL_AXIS_Y, OW_ACTION_TILT, TILT_LIMIT * DEGREE},
-    {OW_CONTROL_AXIS_Z, OW_ACTION_ZOOM, ZOOM_LIMIT},
-    {OW_CONTROL_SELECT, OW_ACTION_HOME, 0},
+    { OW_CONTROL_LEFT, OW_ACTION_TURN, -10 * DEGREE },
+    { OW_CONTROL_RIGHT, OW_ACTION_TURN, 10 * DEGREE },
+    { OW_CONTROL_UP, OW_ACTION_TILT, 5 * DEGREE },
+    { OW_CONTROL_DOWN, OW_ACTION_TILT, -5 * DEGREE },
+    { OW_CONTROL_IN, OW_ACTION_ZOOM, 1 },
+    { OW_CONTROL_OUT, OW_ACTION_ZOOM, -1 },
+    { OW_CONTROL_KNOB_1, OW_ACTION_TURN, 5 * DEGREE },
+    { OW_CONTROL_KNOB_2, OW_ACTION_TILT, 5 * DEGREE },
+    { OW_CONTROL_KNOB_3, OW_ACTION_ZOOM, 1 },
+    { OW_CONTROL_AXIS_X, OW_ACTION_TURN, 180 * (DEGREE - 1) },
+    { OW_CONTROL_AXIS_Y, OW_ACTION_TILT, TILT_LIMIT *DEGREE },
+    { OW_CONTROL_AXIS_Z, OW_ACTION_ZOOM, ZOOM_LIMIT },
+    { OW_CONTROL_SELECT, OW_ACTION_HOME, 0 },
 };
 const uint32_t ow_default_binding_count =
     sizeof ow_default_bindings / sizeof ow_default_bindings[0];

@@ -23,7 +23,7 @@ static void add_stats(struct ow_stats *sum, const struct ow_stats *band)
 static int draw_band(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride, uint16_t first,
                      uint16_t count)
 {
-    struct ow_stats stats = {0};
+    struct ow_stats stats = { 0 };
     struct ow_target target = {
         .pixels = pixels,
         .stride = stride,
@@ -32,8 +32,8 @@ static int draw_band(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride,
         .format = viewer->panel.format,
     };
     probe(viewer, OW_PROBE_DRAW_BEGIN);
-    enum ow_status status = ow_draw(viewer->config.tree, &viewer->view, &viewer->look,
-                                    &target, &viewer->workspace, &stats);
+    enum ow_status status = ow_draw(viewer->config.tree, &viewer->view, &viewer->look, &target,
+                                    &viewer->workspace, &stats);
     probe(viewer, OW_PROBE_DRAW_END);
     add_stats(&viewer->stats, &stats);
     if (status == OW_CAPACITY) {
@@ -104,7 +104,7 @@ static int draw_to_bands(struct ow_viewer *viewer)
         if (status < 0) {
             break;
         }
-        struct ow_panel_rect rect = {0, first, viewer->panel.width, count};
+        struct ow_panel_rect rect = { 0, first, viewer->panel.width, count };
         status = panel->ops->write(panel->device, &rect, pixels, viewer->band_stride,
                                    first + count == viewer->panel.height);
     }
@@ -130,16 +130,16 @@ static int draw_to_lent(struct ow_viewer *viewer)
         uint8_t *pixels = buffer.pixels + (uint32_t)first * buffer.stride;
         status = draw_band(viewer, pixels, buffer.stride, first, count);
     }
-    struct ow_panel_rect whole = {0, 0, viewer->panel.width, viewer->panel.height};
+    struct ow_panel_rect whole = { 0, 0, viewer->panel.width, viewer->panel.height };
     int shown = panel->ops->show(panel->device, &whole, status < 0 ? 0 : 1);
     return status < 0 ? status : shown;
 }
 
 int viewer_present(struct ow_viewer *viewer)
 {
-    viewer->stats = (struct ow_stats){0};
+    viewer->stats = (struct ow_stats){ 0 };
     viewer->drawn = OW_OK;
-    int status = ow_panel_lends(viewer->config.panel) ? draw_to_lent(viewer)
-                                                      : draw_to_bands(viewer);
+    int status =
+        ow_panel_lends(viewer->config.panel) ? draw_to_lent(viewer) : draw_to_bands(viewer);
     return status < 0 ? status : OW_OK;
 }

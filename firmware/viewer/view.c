@@ -27,8 +27,9 @@ static void zoom(struct ow_camera *camera, int32_t level)
     }
     for (int i = 0; i < 3; i++) {
         int64_t eye = camera->at[i] + (((int64_t)camera->eye[i] - camera->at[i]) * factor >> 16);
-        camera->eye[i] = eye > OW_EYE_MAX ? OW_EYE_MAX : eye < -OW_EYE_MAX ? -OW_EYE_MAX
-                                                                            : (ow_q8)eye;
+        camera->eye[i] = eye > OW_EYE_MAX    ? OW_EYE_MAX
+                         : eye < -OW_EYE_MAX ? -OW_EYE_MAX
+                                             : (ow_q8)eye;
     }
 }
 

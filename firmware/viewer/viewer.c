@@ -123,7 +123,7 @@ static int place(struct ow_viewer *viewer, void *memory, uint32_t bytes)
 int ow_viewer_start(struct ow_viewer *viewer, const struct ow_viewer_config *config, void *memory,
                     uint32_t bytes)
 {
-    *viewer = (struct ow_viewer){.config = *config};
+    *viewer = (struct ow_viewer){ .config = *config };
     int status = check_config(config);
     if (status == OW_OK) {
         status = check_devices(config);

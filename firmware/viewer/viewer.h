@@ -49,10 +49,7 @@ enum ow_viewer_end {
 };
 
 /* Where time is measured by those who want it: a bench, a cycle counter. */
-enum ow_probe {
-    OW_PROBE_DRAW_BEGIN,
-    OW_PROBE_DRAW_END
-};
+enum ow_probe { OW_PROBE_DRAW_BEGIN, OW_PROBE_DRAW_END };
 
 struct ow_viewer_config {
     const struct ow_tree *tree;

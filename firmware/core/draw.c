@@ -6,33 +6,9 @@
 #include "ow_draw.h"
 
 #include "ow_clip.h"
+#include "ow_frame.h"
 #include "ow_memory.h"
 #include "ow_project.h"
-#include "ow_scan.h"
-#include "ow_shade.h"
-#include "ow_skip.h"
-#include "ow_surface.h"
-
-/* What one call of ow_draw works with. */
-struct frame {
-    struct ow_span_sink sink; /* first: the frame is found from its sink */
-    const struct ow_surface_kind *kind;
-    const struct ow_shader *shader;
-    struct ow_face face;
-    uint32_t points; /* of its outline */
-    bool shaded;     /* the surface has this face's colour or gradient */
-    bool clipped;    /* the clipper has made the lights of its corners */
-    struct ow_gradient gradient;
-    struct ow_frustum frustum;
-    const struct ow_tree *tree;
-    const struct ow_view *view;
-    struct ow_workspace *workspace;
-    struct ow_window window;
-    enum ow_winding rule;
-    uint32_t tag; /* the stamp in bits 24-31 */
-    uint32_t dropped;
-    struct ow_surface surface;
-};
 
 static inline uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
 {
@@ -42,7 +18,7 @@ static inline uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t 
 }
 
 /* Computes a vertex's place on the screen into its entry of the cache. */
-static void project_vertex(const struct frame *frame, uint32_t vertex,
+static void project_vertex(const struct ow_frame *frame, uint32_t vertex,
                            struct ow_cached_vertex *cached)
 {
     struct ow_camera_point p = ow_to_camera(frame->tree, frame->view, vertex);
@@ -55,17 +31,17 @@ static void project_vertex(const struct frame *frame, uint32_t vertex,
 }
 
 /* The face's outline by way of the clipper. Returns its count of points, 0 for none. */
-static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, uint32_t corners)
+static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face, uint32_t corners)
 {
     struct ow_workspace *workspace = frame->workspace;
-    bool smooth = ow_shade_is_smooth(frame->shader->shade);
+    bool smooth = ow_shade_is_smooth(frame->shader.shade);
     for (uint32_t i = 0; i < corners; i++) {
         uint32_t from = face->reverse ? corners - 1 - i : i;
         uint32_t vertex = corner(frame->tree, face->at, from);
         workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
         if (smooth) {
             workspace->clip[0][i].light =
-                ow_shade_corner(frame->shader, frame->tree, vertex, face->reverse);
+                ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse);
         }
     }
     uint32_t which;
@@ -82,7 +58,7 @@ static uint32_t clip_outline(struct frame *frame, const struct ow_face *face, ui
 }
 
 /* Looks up all corners, last first if reverse. False if one must be clipped first. */
-static inline bool look_up_corners(const struct frame *frame, const uint8_t *corner_bytes,
+static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *corner_bytes,
                                    uint32_t corners, bool wide, bool reverse)
 {
     struct ow_cached_vertex *cache = frame->workspace->cache;
@@ -106,7 +82,7 @@ static inline bool look_up_corners(const struct frame *frame, const uint8_t *cor
 }
 
 /* The face's outline in workspace->outline. Returns its count of points, 0 for none. */
-static uint32_t project_outline(struct frame *frame, const struct ow_face *face)
+static uint32_t project_outline(struct ow_frame *frame, const struct ow_face *face)
 {
     const struct ow_tree *tree = frame->tree;
     const uint8_t *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
@@ -117,7 +93,7 @@ static uint32_t project_outline(struct frame *frame, const struct ow_face *face)
     return ready ? corners : clip_outline(frame, face, corners);
 }
 
-static void begin_gradient(struct frame *frame)
+static void begin_gradient(struct ow_frame *frame)
 {
     struct ow_workspace *workspace = frame->workspace;
     const struct ow_face *face = &frame->face;
@@ -125,25 +101,25 @@ static void begin_gradient(struct frame *frame)
         for (uint32_t i = 0; i < frame->points; i++) {
             uint32_t from = face->reverse ? frame->points - 1 - i : i;
             workspace->corner_lights[i] =
-                ow_shade_corner(frame->shader, frame->tree, corner(frame->tree, face->at, from),
+                ow_shade_corner(&frame->shader, frame->tree, corner(frame->tree, face->at, from),
                                 face->reverse);
         }
     }
     ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights,
-                      frame->points, frame->shader->shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
+                      frame->points, frame->shader.shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
 }
 
 /* A face is shaded when its first spans come: most small faces have none. */
 static void paint(struct ow_span_sink *sink)
 {
-    struct frame *frame = (struct frame *)(void *)sink;
+    struct ow_frame *frame = (struct ow_frame *)(void *)sink;
     struct ow_surface *surface = &frame->surface;
     if (!frame->shaded) {
         if (surface->gradient != NULL) {
-            surface->colour = ow_face_colour(frame->shader, frame->tree, &frame->face);
+            surface->colour = ow_face_colour(&frame->shader, frame->tree, &frame->face);
             begin_gradient(frame);
         } else {
-            uint32_t colour = ow_shade_face(frame->shader, frame->tree, &frame->face);
+            uint32_t colour = ow_shade_face(&frame->shader, frame->tree, &frame->face);
             surface->colour = surface->target->format->pack(colour);
         }
         frame->shaded = true;
@@ -155,7 +131,7 @@ static void paint(struct ow_span_sink *sink)
 /* The walk asks: can nothing of what is below this node be seen? */
 static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bounds_at)
 {
-    const struct frame *frame = context;
+    const struct ow_frame *frame = context;
     struct ow_bounds bounds = ow_read_bounds(tree, bounds_at);
     struct ow_box box;
     return (frame->rule == OW_WINDING_POSITIVE && ow_cone_looks_away(frame->view, &bounds)) ||
@@ -163,11 +139,13 @@ static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bound
            (frame->kind->hides != NULL && frame->kind->hides(&frame->surface, &box));
 }
 
-static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stats *stats)
+/* Draws what the walk gives. Returns how many faces had a pixel written. */
+static uint32_t draw_faces(struct ow_frame *frame)
 {
+    uint32_t painted = 0;
     struct ow_workspace *workspace = frame->workspace;
     struct ow_surface *surface = &frame->surface;
-    while (surface->lines_open > 0 && ow_walk_next(walk, &frame->face)) {
+    while (surface->lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
         frame->clipped = false;
         uint32_t count = project_outline(frame, &frame->face);
         struct ow_box box;
@@ -179,8 +157,9 @@ static void draw_faces(struct frame *frame, struct ow_walk *walk, struct ow_stat
         frame->shaded = false;
         frame->points = count;
         ow_scan(workspace->outline, count, frame->rule, &box, workspace->edges, &frame->sink);
-        stats->polygons_painted += surface->pixels_written != before;
+        painted += surface->pixels_written != before;
     }
+    return painted;
 }
 
 static enum ow_status check(const struct ow_tree *tree, const struct ow_view *view,
@@ -219,56 +198,65 @@ static void begin_surface(struct ow_surface *surface, const struct ow_workspace 
     surface->words_in_line = (view->width + 31u) / 32;
 }
 
+static void begin_frame(struct ow_frame *frame, const struct ow_tree *tree,
+                        const struct ow_view *view, const struct ow_look *look,
+                        const struct ow_target *target, struct ow_workspace *workspace)
+{
+    frame->sink = (struct ow_span_sink){workspace->spans, 0, workspace->lines, paint};
+    frame->tree = tree;
+    frame->view = view;
+    frame->workspace = workspace;
+    frame->window = (struct ow_window){target->first_line, target->first_line + target->line_count,
+                                       view->width};
+    frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
+    frame->tag = next_stamp(workspace);
+    frame->dropped = 0;
+    ow_frustum_make(&frame->frustum, view);
+    ow_shader_make(&frame->shader, look, view);
+    begin_surface(&frame->surface, workspace, view, target);
+    frame->surface.shader = &frame->shader;
+    frame->surface.gradient = ow_shade_is_smooth(look->shade) ? &frame->gradient : NULL;
+    frame->walk.skip = (struct ow_walk_skip){hides_node, frame};
+}
+
+static void report(const struct ow_frame *frame, uint32_t painted, struct ow_stats *stats)
+{
+    *stats = (struct ow_stats){
+        .polygons_visited = frame->walk.faces_met,
+        .polygons_painted = painted,
+        .pixels_written = frame->surface.pixels_written,
+        .pixels_background = frame->surface.pixels_background,
+        .spans = frame->surface.spans_written,
+        .nodes_skipped = frame->walk.nodes_skipped,
+        .polygons_dropped = frame->dropped,
+    };
+}
+
 enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
                        const struct ow_look *look, const struct ow_target *target,
                        struct ow_workspace *workspace, struct ow_stats *stats)
 {
-    struct ow_stats counted;
-    struct ow_walk walk;
-    struct ow_shader shader;
-    struct frame frame;
-    const struct ow_surface_kind *kind =
-        look->order == OW_FRONT_TO_BACK ? &ow_surface_dynamic : &ow_surface_painter;
+    struct ow_frame *frame = workspace->frame;
     enum ow_status status = check(tree, view, target, workspace);
-    if (status == OW_OK) {
-        status = ow_walk_begin(&walk, tree, view, kind->direction, look->cull, workspace->stack);
-    }
-    if (status == OW_OK && ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
-        status = OW_NORMALS;
-    }
     if (status != OW_OK) {
         return status;
     }
-    memset(&counted, 0, sizeof counted);
-    frame.tree = tree;
-    frame.view = view;
-    frame.workspace = workspace;
-    frame.window = (struct ow_window){target->first_line, target->first_line + target->line_count,
-                                      view->width};
-    frame.rule = walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
-    frame.tag = next_stamp(workspace);
-    frame.dropped = 0;
-    frame.kind = kind;
-    frame.shader = &shader;
-    frame.sink = (struct ow_span_sink){workspace->spans, 0, workspace->lines, paint};
-    begin_surface(&frame.surface, workspace, view, target);
-    ow_shader_make(&shader, look, view);
-    frame.surface.shader = &shader;
-    frame.surface.gradient = ow_shade_is_smooth(look->shade) ? &frame.gradient : NULL;
-    uint32_t background = target->format->pack(look->background);
-    kind->begin(&frame.surface, background);
-    ow_frustum_make(&frame.frustum, view);
-    walk.skip = (struct ow_walk_skip){hides_node, &frame};
-    draw_faces(&frame, &walk, &counted);
-    kind->end(&frame.surface, background);
-    counted.polygons_visited = walk.faces_met;
-    counted.nodes_skipped = walk.nodes_skipped;
-    counted.pixels_written = frame.surface.pixels_written;
-    counted.pixels_background = frame.surface.pixels_background;
-    counted.spans = frame.surface.spans_written;
-    counted.polygons_dropped = frame.dropped;
-    if (stats != NULL) {
-        *stats = counted;
+    if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
+        return OW_NORMALS;
     }
-    return frame.dropped > 0 ? OW_CAPACITY : OW_OK;
+    frame->kind = look->order == OW_FRONT_TO_BACK ? &ow_surface_dynamic : &ow_surface_painter;
+    status = ow_walk_begin(&frame->walk, tree, view, frame->kind->direction, look->cull,
+                           workspace->stack);
+    if (status != OW_OK) {
+        return status;
+    }
+    begin_frame(frame, tree, view, look, target, workspace);
+    uint32_t background = target->format->pack(look->background);
+    frame->kind->begin(&frame->surface, background);
+    uint32_t painted = draw_faces(frame);
+    frame->kind->end(&frame->surface, background);
+    if (stats != NULL) {
+        report(frame, painted, stats);
+    }
+    return frame->dropped > 0 ? OW_CAPACITY : OW_OK;
 }

@@ -76,6 +76,7 @@ struct ow_workspace_config {
 
 /* Private to the core, here so that the caller can place it. */
 struct ow_workspace {
+    struct ow_frame *frame;
     struct ow_walk_entry *stack;
     struct ow_cached_vertex *cache;
     struct ow_outline_point *outline;

@@ -16,6 +16,11 @@ struct ow_pixel_format {
     uint32_t (*pack)(uint32_t rgb);
     /* The inverse: 0x00RRGGBB, exact at the ends 0 and 255. */
     uint32_t (*unpack)(uint32_t value);
+    /*
+     * Like pack, but rounded by an ordered dither's threshold 0 .. 63: over all
+     * thresholds the mean is the colour. NULL: the levels are fine enough.
+     */
+    uint32_t (*dither)(uint32_t rgb, uint32_t threshold);
     /* Sets pixels first .. end-1 of a row to a packed value; row: aligned to 4 bytes. */
     void (*fill)(uint8_t *row, uint32_t first, uint32_t end, uint32_t value);
     /* Packs end - first colours 0x00RRGGBB into pixels first .. end-1 of a row. */
@@ -24,8 +29,18 @@ struct ow_pixel_format {
     uint32_t (*get)(const uint8_t *row, uint32_t x);
 };
 
-extern const struct ow_pixel_format ow_format_xrgb8888; /* 32-bit little-endian words */
-extern const struct ow_pixel_format ow_format_rgb565;   /* 16-bit little-endian words */
+extern const struct ow_pixel_format ow_format_xrgb8888;  /* 32-bit little-endian words */
+extern const struct ow_pixel_format ow_format_rgb565;    /* 16-bit little-endian words */
+extern const struct ow_pixel_format ow_format_rgb565_be; /* the same, high byte first */
+extern const struct ow_pixel_format ow_format_rgb332;    /* bytes */
+extern const struct ow_pixel_format ow_format_gray8;     /* bytes of luminance */
+extern const struct ow_pixel_format ow_format_gray4;     /* 2 pixels a byte, the left one high */
+extern const struct ow_pixel_format ow_format_mono;      /* 8 pixels a byte, the leftmost highest */
+
+/* All of them, and the one of this name or NULL. A program that uses these contains all formats. */
+extern const struct ow_pixel_format *const ow_formats[];
+extern const uint32_t ow_format_count;
+const struct ow_pixel_format *ow_format_by_name(const char *name);
 
 /* Bytes of a row of width pixels without padding. */
 uint32_t ow_row_bytes(const struct ow_pixel_format *format, uint32_t width);

@@ -55,7 +55,7 @@ static void make_unit(int32_t v[3])
     int32_t root = (int32_t)reciprocal_root(squares); /* 2^15 * 2^15 / length */
     for (int i = 0; i < 3; i++) {
         int64_t scaled = (int64_t)v[i] * root;
-        v[i] = (int32_t)(shift < 0 ? scaled >> (16 - shift) : (scaled << shift) >> 16);
+        v[i] = (int32_t)(shift < 0 ? scaled >> (16 - shift) : (scaled * ((int64_t)1 << shift)) >> 16);
     }
 }
 

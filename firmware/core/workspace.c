@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: 0BSD */
 /* The memory of drawing: one block from the caller, cut into the stages' arrays. */
+#include "ow_frame.h"
 #include "ow_memory.h"
-#include "ow_surface.h"
 
 enum { ALIGNMENT = 8 };
 
@@ -42,6 +42,7 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     uint32_t capacity = outline_capacity(tree);
     uint32_t entries = cache_entries(tree, config);
     uint32_t words = (config->width + 31u) / 32;
+    workspace->frame = cut(&cutter, 1, sizeof *workspace->frame);
     workspace->stack = cut(&cutter, ow_walk_stack_bytes(tree), 1);
     workspace->cache = cut(&cutter, entries, sizeof *workspace->cache);
     workspace->outline = cut(&cutter, capacity, sizeof *workspace->outline);

@@ -169,7 +169,7 @@ have-%:
 -include $(shell find $(O)/obj -name '*.d' 2>/dev/null)
 
 # ---- what people run ----------------------------------------------------------------------------
-submake = +$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
+submake = @+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
 
 .PHONY: help demo check check-all check-rest format golden-update fuzz install clean FORCE
 help: ## show this list
@@ -207,7 +207,7 @@ golden-update: ## write the golden files anew (look at the difference before you
 fuzz: ## libFuzzer on every target, FUZZ_SECONDS each (600)
 	@scripts/setup check cross
 	$(submake) O=build/fuzz CC=clang \
-	    CFLAGS='-O1 -g -fsanitize=fuzzer-no-link,address,undefined' fuzzers
+	    CFLAGS='-O1 -g -fsanitize=fuzzer-no-link' SAN=1 fuzzers
 	@scripts/fuzz
 
 install: programs ## owgen, owc and owsim into DESTDIR/prefix/bin

@@ -8,11 +8,7 @@
 
 #include "ow_status.h"
 
-enum ow_log_level {
-    OW_LOG_ERROR,
-    OW_LOG_WARNING,
-    OW_LOG_INFO
-};
+enum ow_log_level { OW_LOG_ERROR, OW_LOG_WARNING, OW_LOG_INFO };
 
 struct ow_board_ops {
     /* Prints one line; text: no line end in it, used during the call only. May drop lines. */

@@ -27,8 +27,8 @@ struct ow_clock {
 /* OW_UNSUPPORTED where a mandatory function is missing. */
 static inline int ow_clock_check(const struct ow_clock *clock)
 {
-    bool complete = clock != NULL && clock->ops != NULL && clock->ops->now != NULL &&
-                    clock->ops->sleep != NULL;
+    bool complete =
+        clock != NULL && clock->ops != NULL && clock->ops->now != NULL && clock->ops->sleep != NULL;
     return complete ? OW_OK : OW_UNSUPPORTED;
 }
 

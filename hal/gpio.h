@@ -12,23 +12,12 @@
 
 #include "ow_status.h"
 
-enum ow_gpio_direction {
-    OW_GPIO_INPUT,
-    OW_GPIO_OUTPUT
-};
+enum ow_gpio_direction { OW_GPIO_INPUT, OW_GPIO_OUTPUT };
 
-enum ow_gpio_pull {
-    OW_GPIO_PULL_AS_IS,
-    OW_GPIO_PULL_NONE,
-    OW_GPIO_PULL_UP,
-    OW_GPIO_PULL_DOWN
-};
+enum ow_gpio_pull { OW_GPIO_PULL_AS_IS, OW_GPIO_PULL_NONE, OW_GPIO_PULL_UP, OW_GPIO_PULL_DOWN };
 
 /* Edges are of the logical level: active_low turns them round as well. */
-enum {
-    OW_GPIO_RISING = 1,
-    OW_GPIO_FALLING = 2
-};
+enum { OW_GPIO_RISING = 1, OW_GPIO_FALLING = 2 };
 
 struct ow_gpio_request {
     const char *chip; /* its name, label or number; NULL: search all chips for the line */

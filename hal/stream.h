@@ -37,8 +37,7 @@ static inline int ow_stream_check(const struct ow_stream *stream)
     return complete ? OW_OK : OW_UNSUPPORTED;
 }
 
-static inline int ow_stream_write(const struct ow_stream *stream, const void *bytes,
-                                  uint32_t count)
+static inline int ow_stream_write(const struct ow_stream *stream, const void *bytes, uint32_t count)
 {
     return stream->ops->write == NULL ? OW_UNSUPPORTED
                                       : stream->ops->write(stream->device, bytes, count);

@@ -10,6 +10,7 @@ bool image_fail(struct image_error *error, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
+    /* cppcheck-suppress ctuuninitvar ; it is written, not read */
     vsnprintf(error->text, sizeof error->text, format, arguments);
     va_end(arguments);
     return false;
@@ -17,15 +18,15 @@ bool image_fail(struct image_error *error, const char *format, ...)
 
 bool image_make(struct image *image, uint32_t width, uint32_t height, struct image_error *error)
 {
-    *image = (struct image){0};
+    *image = (struct image){ 0 };
     if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX) {
         return image_fail(error, "a picture of %lux%lu is out of range", (unsigned long)width,
                           (unsigned long)height);
     }
     image->rgb = malloc((size_t)3 * width * height);
     if (image->rgb == NULL) {
-        return image_fail(error, "not enough memory for a picture of %lux%lu",
-                          (unsigned long)width, (unsigned long)height);
+        return image_fail(error, "not enough memory for a picture of %lux%lu", (unsigned long)width,
+                          (unsigned long)height);
     }
     image->width = width;
     image->height = height;
@@ -44,5 +45,5 @@ bool image_copy(struct image *to, const struct image *from, struct image_error *
 void image_free(struct image *image)
 {
     free(image->rgb);
-    *image = (struct image){0};
+    *image = (struct image){ 0 };
 }

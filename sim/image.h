@@ -101,8 +101,8 @@ void palette_free(struct palette *palette);
  * a whole number so that the sheet is at most SHEET_WIDTH wide.
  */
 enum { SHEET_WIDTH = 2560, SHEET_GAP = 4 };
-bool image_sheet(struct image *sheet, const struct image *frames, uint32_t count,
-                 uint32_t columns, struct image_error *error);
+bool image_sheet(struct image *sheet, const struct image *frames, uint32_t count, uint32_t columns,
+                 struct image_error *error);
 
 /* ---- image_diff.c ---- */
 

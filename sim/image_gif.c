@@ -40,11 +40,11 @@ static int put_bytes(GifFileType *file, const GifByteType *bytes, int count)
 
 static bool put_screen(struct gif *gif)
 {
-    GifColorType colours[COLOURS] = {{0, 0, 0}};
+    GifColorType colours[COLOURS] = { { 0, 0, 0 } };
     for (uint32_t i = 0; i < gif->palette.count; i++) {
         uint32_t rgb = gif->palette.rgb[i];
-        colours[i] = (GifColorType){(GifByteType)(rgb >> 16), (GifByteType)(rgb >> 8),
-                                    (GifByteType)rgb};
+        colours[i] =
+            (GifColorType){ (GifByteType)(rgb >> 16), (GifByteType)(rgb >> 8), (GifByteType)rgb };
     }
     ColorMapObject *map = GifMakeMapObject(COLOURS, colours);
     if (map == NULL) {
@@ -53,7 +53,7 @@ static bool put_screen(struct gif *gif)
     EGifSetGifVersion(gif->file, true);
     int result = EGifPutScreenDesc(gif->file, (int)gif->width, (int)gif->height, 8, 0, map);
     GifFreeMapObject(map);
-    static const GifByteType for_ever[] = {1, 0, 0};
+    static const GifByteType for_ever[] = { 1, 0, 0 };
     return result == GIF_OK &&
            EGifPutExtensionLeader(gif->file, APPLICATION_EXT_FUNC_CODE) == GIF_OK &&
            EGifPutExtensionBlock(gif->file, 11, "NETSCAPE2.0") == GIF_OK &&
@@ -80,27 +80,26 @@ static struct area changed_area(const struct gif *gif)
         }
     }
     if (top == gif->height) {
-        return (struct area){0, 0, 1, 1};
+        return (struct area){ 0, 0, 1, 1 };
     }
-    return (struct area){left, top, right - left + 1, bottom - top + 1};
+    return (struct area){ left, top, right - left + 1, bottom - top + 1 };
 }
 
 static bool put_control(const struct gif *gif)
 {
-    GifByteType control[] = {DISPOSE_KEEP << 2 | FLAG_TRANSPARENT, (GifByteType)gif->delay_cs,
-                             (GifByteType)(gif->delay_cs >> 8), TRANSPARENT};
+    GifByteType control[] = { DISPOSE_KEEP << 2 | FLAG_TRANSPARENT, (GifByteType)gif->delay_cs,
+                              (GifByteType)(gif->delay_cs >> 8), TRANSPARENT };
     return EGifPutExtension(gif->file, GRAPHICS_EXT_FUNC_CODE, sizeof control, control) == GIF_OK;
 }
 
 static bool put_frame(struct gif *gif, bool first)
 {
-    struct area area = {0, 0, gif->width, gif->height};
+    struct area area = { 0, 0, gif->width, gif->height };
     if (!first) {
         area = changed_area(gif);
     }
-    if (!put_control(gif) ||
-        EGifPutImageDesc(gif->file, (int)area.x, (int)area.y, (int)area.width, (int)area.height,
-                         false, NULL) != GIF_OK) {
+    if (!put_control(gif) || EGifPutImageDesc(gif->file, (int)area.x, (int)area.y, (int)area.width,
+                                              (int)area.height, false, NULL) != GIF_OK) {
         return false;
     }
     for (uint32_t y = area.y; y < area.y + area.height; y++) {
@@ -147,9 +146,9 @@ static bool encode(struct gif *gif, FILE *stream, const struct image *frames, ui
 {
     int code = 0;
     size_t pixels = (size_t)gif->width * gif->height;
-    gif->indices = malloc(pixels);
-    gif->previous = malloc(pixels);
-    gif->row = malloc(gif->width);
+    gif->indices = calloc(pixels, 1);
+    gif->previous = calloc(pixels, 1);
+    gif->row = calloc(gif->width, 1);
     if (gif->indices == NULL || gif->previous == NULL || gif->row == NULL) {
         return image_fail(error, "not enough memory for the GIF");
     }
@@ -173,7 +172,7 @@ static bool encode(struct gif *gif, FILE *stream, const struct image *frames, ui
 bool image_gif_write(FILE *stream, const struct image *frames, uint32_t count, uint32_t delay_cs,
                      struct image_error *error)
 {
-    struct gif gif = {.delay_cs = delay_cs};
+    struct gif gif = { .delay_cs = delay_cs };
     if (count == 0) {
         return image_fail(error, "no frame for the GIF");
     }

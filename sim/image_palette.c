@@ -37,19 +37,21 @@ static struct palette_entry *find(const struct palette *palette, uint32_t rgb)
 
 static bool grow(struct palette *palette, struct image_error *error)
 {
-    struct palette larger = *palette;
-    larger.capacity = palette->capacity == 0 ? 4096 : 2 * palette->capacity;
-    larger.table = calloc(larger.capacity, sizeof *larger.table);
-    if (larger.table == NULL) {
+    struct palette_entry *old = palette->table;
+    uint32_t places = palette->capacity;
+    uint32_t capacity = places == 0 ? 4096 : 2 * places;
+    struct palette_entry *table = calloc(capacity, sizeof *table);
+    if (table == NULL) {
         return image_fail(error, "not enough memory for the palette");
     }
-    for (uint32_t i = 0; i < palette->capacity; i++) {
-        if (palette->table[i].pixels != 0) {
-            *find(&larger, palette->table[i].rgb) = palette->table[i];
+    palette->table = table;
+    palette->capacity = capacity;
+    for (uint32_t i = 0; i < places; i++) {
+        if (old[i].pixels != 0) {
+            *find(palette, old[i].rgb) = old[i];
         }
     }
-    free(palette->table);
-    *palette = larger;
+    free(old);
     return true;
 }
 
@@ -82,8 +84,8 @@ static uint32_t channel(uint32_t rgb, uint32_t shift)
 /* By one channel, then by the whole colour: colours differ, so the order is total. */
 static int compare(const void *a, const void *b, uint32_t shift)
 {
-    uint32_t left = (*(struct palette_entry *const *)a)->rgb;
-    uint32_t right = (*(struct palette_entry *const *)b)->rgb;
+    uint32_t left = ((const struct palette_entry *)a)->rgb;
+    uint32_t right = ((const struct palette_entry *)b)->rgb;
     if (channel(left, shift) != channel(right, shift)) {
         return channel(left, shift) < channel(right, shift) ? -1 : 1;
     }
@@ -105,20 +107,20 @@ static int compare_blue(const void *a, const void *b)
     return compare(a, b, 0);
 }
 
-static void measure(struct box *box, struct palette_entry *const *list)
+static void measure(struct box *box, const struct palette_entry *list)
 {
     box->pixels = 0;
     box->range = 0;
     box->shift = 8;
     for (uint32_t i = 0; i < box->count; i++) {
-        box->pixels += list[box->first + i]->pixels;
+        box->pixels += list[box->first + i].pixels;
     }
-    static const uint32_t shifts[] = {8, 16, 0}; /* the eye sees green best */
+    static const uint32_t shifts[] = { 8, 16, 0 }; /* the eye sees green best */
     for (uint32_t s = 0; s < 3; s++) {
         uint32_t low = 255;
         uint32_t high = 0;
         for (uint32_t i = 0; i < box->count; i++) {
-            uint32_t value = channel(list[box->first + i]->rgb, shifts[s]);
+            uint32_t value = channel(list[box->first + i].rgb, shifts[s]);
             low = value < low ? value : low;
             high = value > high ? value : high;
         }
@@ -145,30 +147,32 @@ static struct box *worst_box(struct box *boxes, uint32_t count)
 }
 
 /* Leaves the half with the lower values in *box; both halves hold at least one colour. */
-static struct box cut(struct box *box, struct palette_entry **list)
+static struct box cut(struct box *box, struct palette_entry *list)
 {
-    struct palette_entry **part = list + box->first;
+    struct palette_entry *part = list + box->first;
     qsort(part, box->count, sizeof *part,
-          box->shift == 16 ? compare_red : box->shift == 8 ? compare_green : compare_blue);
-    uint64_t pixels = part[0]->pixels;
+          box->shift == 16  ? compare_red
+          : box->shift == 8 ? compare_green
+                            : compare_blue);
+    uint64_t pixels = part[0].pixels;
     uint32_t lower = 1;
-    while (lower < box->count - 1 && 2 * (pixels + part[lower]->pixels) <= box->pixels) {
-        pixels += part[lower++]->pixels;
+    while (lower < box->count - 1 && 2 * (pixels + part[lower].pixels) <= box->pixels) {
+        pixels += part[lower++].pixels;
     }
-    struct box upper = {.first = box->first + lower, .count = box->count - lower};
+    struct box upper = { .first = box->first + lower, .count = box->count - lower };
     box->count = lower;
     measure(box, list);
     measure(&upper, list);
     return upper;
 }
 
-static uint32_t mean_colour(const struct box *box, struct palette_entry *const *list)
+static uint32_t mean_colour(const struct box *box, const struct palette_entry *list)
 {
     uint32_t rgb = 0;
     for (uint32_t shift = 0; shift <= 16; shift += 8) {
         uint64_t sum = box->pixels / 2;
         for (uint32_t i = 0; i < box->count; i++) {
-            const struct palette_entry *entry = list[box->first + i];
+            const struct palette_entry *entry = &list[box->first + i];
             sum += entry->pixels * channel(entry->rgb, shift);
         }
         rgb |= (uint32_t)(sum / box->pixels) << shift;
@@ -176,11 +180,11 @@ static uint32_t mean_colour(const struct box *box, struct palette_entry *const *
     return rgb;
 }
 
-static void choose(struct palette *palette, struct palette_entry **list)
+static void choose(struct palette *palette, struct palette_entry *list)
 {
     struct box boxes[PALETTE_COLOURS];
     uint32_t count = 1;
-    boxes[0] = (struct box){.count = palette->used};
+    boxes[0] = (struct box){ .count = palette->used };
     measure(&boxes[0], list);
     while (count < PALETTE_COLOURS) {
         struct box *box = worst_box(boxes, count);
@@ -192,7 +196,7 @@ static void choose(struct palette *palette, struct palette_entry **list)
     for (uint32_t i = 0; i < count; i++) {
         palette->rgb[i] = mean_colour(&boxes[i], list);
         for (uint32_t k = 0; k < boxes[i].count; k++) {
-            list[boxes[i].first + k]->index = i;
+            find(palette, list[boxes[i].first + k].rgb)->index = i;
         }
     }
     palette->count = count;
@@ -201,14 +205,14 @@ static void choose(struct palette *palette, struct palette_entry **list)
 bool palette_make(struct palette *palette, const struct image *frames, uint32_t count,
                   struct image_error *error)
 {
-    *palette = (struct palette){0};
+    *palette = (struct palette){ 0 };
     for (uint32_t i = 0; i < count; i++) {
         if (!count_colours(palette, &frames[i], error)) {
             palette_free(palette);
             return false;
         }
     }
-    struct palette_entry **list = malloc(palette->used * sizeof(struct palette_entry *));
+    struct palette_entry *list = malloc(palette->used * sizeof *list);
     if (list == NULL) {
         palette_free(palette);
         return image_fail(error, "not enough memory for the palette");
@@ -216,7 +220,7 @@ bool palette_make(struct palette *palette, const struct image *frames, uint32_t 
     uint32_t used = 0;
     for (uint32_t i = 0; i < palette->capacity; i++) {
         if (palette->table[i].pixels != 0) {
-            list[used++] = &palette->table[i];
+            list[used++] = palette->table[i];
         }
     }
     qsort(list, used, sizeof *list, compare_red);
@@ -233,5 +237,5 @@ uint32_t palette_index(const struct palette *palette, uint32_t rgb)
 void palette_free(struct palette *palette)
 {
     free(palette->table);
-    *palette = (struct palette){0};
+    *palette = (struct palette){ 0 };
 }

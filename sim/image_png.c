@@ -23,9 +23,9 @@ static bool png_write(FILE *stream, const struct image *image, struct image_erro
 
 static bool png_read(FILE *stream, struct image *image, struct image_error *error)
 {
-    static const png_color black = {0, 0, 0};
-    png_image png = {.version = PNG_IMAGE_VERSION};
-    *image = (struct image){0};
+    static const png_color black = { 0, 0, 0 };
+    png_image png = { .version = PNG_IMAGE_VERSION };
+    *image = (struct image){ 0 };
     bool good = png_image_begin_read_from_stdio(&png, stream) != 0;
     if (good) {
         png.format = PNG_FORMAT_RGB;
@@ -43,4 +43,4 @@ static bool png_read(FILE *stream, struct image *image, struct image_error *erro
     return good;
 }
 
-const struct image_format image_png = {"PNG", ".png", png_write, png_read};
+const struct image_format image_png = { "PNG", ".png", png_write, png_read };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: 0BSD */
 /* PPM files, the binary kind with 8 bits a channel (P6, 255). */
-#include <ctype.h>
 #include <string.h>
 
 #include "image.h"
@@ -12,6 +11,16 @@ static bool ppm_write(FILE *stream, const struct image *image, struct image_erro
             (unsigned long)image->height);
     fwrite(image->rgb, (size_t)3 * image->width, image->height, stream);
     return true;
+}
+
+static bool is_space(int c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+static bool is_digit(int c)
+{
+    return c >= '0' && c <= '9';
 }
 
 /* The next byte that is not a comment's. */
@@ -31,26 +40,27 @@ static long read_number(FILE *stream, long max)
 {
     long number = 0;
     int c = next_byte(stream);
-    while (c != EOF && isspace(c)) {
+    while (is_space(c)) {
         c = next_byte(stream);
     }
-    if (!isdigit(c)) {
+    if (!is_digit(c)) {
         return -1;
     }
-    while (isdigit(c)) {
+    while (is_digit(c)) {
         number = 10 * number + (c - '0');
         if (number > max) {
             return -1;
         }
         c = next_byte(stream);
     }
-    return isspace(c) ? number : -1;
+    return is_space(c) ? number : -1;
 }
 
 static bool ppm_read(FILE *stream, struct image *image, struct image_error *error)
 {
-    *image = (struct image){0};
-    if (getc(stream) != 'P' || getc(stream) != '6') {
+    *image = (struct image){ 0 };
+    char magic[2];
+    if (fread(magic, 1, 2, stream) != 2 || memcmp(magic, "P6", 2) != 0) {
         return image_fail(error, "this is not a binary PPM file (P6)");
     }
     long width = read_number(stream, IMAGE_SIZE_MAX);
@@ -70,4 +80,4 @@ static bool ppm_read(FILE *stream, struct image *image, struct image_error *erro
     return true;
 }
 
-const struct image_format image_ppm = {"PPM", ".ppm", ppm_write, ppm_read};
+const struct image_format image_ppm = { "PPM", ".ppm", ppm_write, ppm_read };

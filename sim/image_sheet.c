@@ -9,7 +9,7 @@ enum { SHEET_GREY = 0x60 };
 /* The mean of the block of at most k x k pixels that pixel x, y of the reduced frame stands for. */
 static uint32_t mean_pixel(const struct image *frame, uint32_t x, uint32_t y, uint32_t k)
 {
-    uint32_t sum[3] = {0, 0, 0};
+    uint32_t sum[3] = { 0, 0, 0 };
     uint32_t count = 0;
     for (uint32_t j = y * k; j < (y + 1) * k && j < frame->height; j++) {
         for (uint32_t i = x * k; i < (x + 1) * k && i < frame->width; i++) {
@@ -20,6 +20,7 @@ static uint32_t mean_pixel(const struct image *frame, uint32_t x, uint32_t y, ui
             count++;
         }
     }
+    count = count == 0 ? 1 : count;
     uint32_t half = count / 2;
     return (sum[0] + half) / count << 16 | (sum[1] + half) / count << 8 | (sum[2] + half) / count;
 }
@@ -33,10 +34,10 @@ static uint32_t square_root_up(uint32_t x)
     return root;
 }
 
-bool image_sheet(struct image *sheet, const struct image *frames, uint32_t count,
-                 uint32_t columns, struct image_error *error)
+bool image_sheet(struct image *sheet, const struct image *frames, uint32_t count, uint32_t columns,
+                 struct image_error *error)
 {
-    *sheet = (struct image){0};
+    *sheet = (struct image){ 0 };
     if (count == 0) {
         return image_fail(error, "no frame for the sheet");
     }

@@ -24,7 +24,7 @@ static int virtual_sleep(void *device, uint64_t until_us)
     return OW_OK;
 }
 
-const struct ow_clock_ops sim_virtual_clock_ops = {virtual_now, virtual_sleep};
+const struct ow_clock_ops sim_virtual_clock_ops = { virtual_now, virtual_sleep };
 
 uint64_t sim_host_ns(void)
 {
@@ -55,4 +55,4 @@ static int host_sleep(void *device, uint64_t until_us)
     return OW_OK;
 }
 
-const struct ow_clock_ops sim_host_clock_ops = {host_now, host_sleep};
+const struct ow_clock_ops sim_host_clock_ops = { host_now, host_sleep };

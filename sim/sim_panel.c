@@ -69,8 +69,7 @@ static bool rect_is_good(const struct sim_panel *panel, const struct ow_panel_re
 static int frame_is_whole(struct sim_panel *panel)
 {
     panel->frames++;
-    return panel->config.frame == NULL ? OW_OK
-                                       : panel->config.frame(panel->config.context, panel);
+    return panel->config.frame == NULL ? OW_OK : panel->config.frame(panel->config.context, panel);
 }
 
 static int sim_info(void *device, struct ow_panel_info *info)
@@ -180,7 +179,7 @@ static int sim_write(void *device, const struct ow_panel_rect *rect, const void 
         copy_rect(panel, rect, pixels, stride, rect->height / 2u);
         return status;
     }
-    panel->queue[panel->pending++] = (struct sim_pending){*rect, pixels, stride, last};
+    panel->queue[panel->pending++] = (struct sim_pending){ *rect, pixels, stride, last };
     return panel->config.delay == 0 ? finish_write(panel) : OW_OK;
 }
 
@@ -229,14 +228,14 @@ static int sim_set(void *device, enum ow_panel_setting setting, int32_t value)
 
 /* By kind. */
 static const struct ow_panel_ops sim_ops[] = {
-    [SIM_PANEL_LENDS] = {.info = sim_info, .lend = sim_lend, .show = sim_show, .set = sim_set},
-    [SIM_PANEL_TAKES] = {.info = sim_info, .write = sim_write, .done = sim_done, .set = sim_set},
-    [SIM_PANEL_BOTH] = {.info = sim_info,
-                        .lend = sim_lend,
-                        .show = sim_show,
-                        .write = sim_write,
-                        .done = sim_done,
-                        .set = sim_set},
+    [SIM_PANEL_LENDS] = { .info = sim_info, .lend = sim_lend, .show = sim_show, .set = sim_set },
+    [SIM_PANEL_TAKES] = { .info = sim_info, .write = sim_write, .done = sim_done, .set = sim_set },
+    [SIM_PANEL_BOTH] = { .info = sim_info,
+                         .lend = sim_lend,
+                         .show = sim_show,
+                         .write = sim_write,
+                         .done = sim_done,
+                         .set = sim_set },
 };
 
 /* ---- the host's side ---- */
@@ -263,8 +262,8 @@ static bool make_buffers(struct sim_panel *panel)
 
 bool sim_panel_open(struct sim_panel *panel, const struct sim_panel_config *config)
 {
-    *panel = (struct sim_panel){.config = *config, .width = config->width,
-                                .height = config->height};
+    *panel =
+        (struct sim_panel){ .config = *config, .width = config->width, .height = config->height };
     struct sim_panel_config *own = &panel->config;
     own->align_x = own->align_x == 0 ? 1 : own->align_x;
     own->align_y = own->align_y == 0 ? 1 : own->align_y;
@@ -273,7 +272,7 @@ bool sim_panel_open(struct sim_panel *panel, const struct sim_panel_config *conf
         own->height > OW_PANEL_SIZE_MAX || own->buffers > SIM_PANEL_BUFFERS) {
         return false;
     }
-    panel->panel = (struct ow_panel){&sim_ops[own->kind], panel};
+    panel->panel = (struct ow_panel){ &sim_ops[own->kind], panel };
     panel->row_bytes = ow_row_bytes(own->format, own->width);
     panel->buffer_stride = (panel->row_bytes + 3) / 4 * 4 + 4; /* never without padding */
     if (!make_buffers(panel)) {
@@ -289,11 +288,10 @@ void sim_panel_close(struct sim_panel *panel)
     for (uint32_t i = 0; i < SIM_PANEL_BUFFERS; i++) {
         free(panel->buffers[i]);
     }
-    *panel = (struct sim_panel){0};
+    *panel = (struct sim_panel){ 0 };
 }
 
-bool sim_panel_image(const struct sim_panel *panel, struct image *image,
-                     struct image_error *error)
+bool sim_panel_image(const struct sim_panel *panel, struct image *image, struct image_error *error)
 {
     const struct ow_pixel_format *format = panel->config.format;
     if (!image_make(image, panel->width, panel->height, error)) {

@@ -54,11 +54,11 @@ struct sim_panel {
     struct ow_panel panel; /* what the viewer is given */
     uint16_t width;        /* as the rotation has them */
     uint16_t height;
-    uint8_t *screen;       /* what is seen: packed rows without padding */
+    uint8_t *screen; /* what is seen: packed rows without padding */
     uint32_t row_bytes;
-    uint32_t calls;   /* of all functions */
-    uint32_t failed;  /* calls that failed because they were told to */
-    uint32_t frames;  /* whole frames shown */
+    uint32_t calls;    /* of all functions */
+    uint32_t failed;   /* calls that failed because they were told to */
+    uint32_t frames;   /* whole frames shown */
     const char *wrong; /* the first thing that its user did against the contract, or NULL */
     /* Lending. */
     uint8_t *buffers[SIM_PANEL_BUFFERS];
@@ -77,8 +77,7 @@ bool sim_panel_open(struct sim_panel *panel, const struct sim_panel_config *conf
 void sim_panel_close(struct sim_panel *panel);
 
 /* What is seen, as a picture. */
-bool sim_panel_image(const struct sim_panel *panel, struct image *image,
-                     struct image_error *error);
+bool sim_panel_image(const struct sim_panel *panel, struct image *image, struct image_error *error);
 
 /* zlib's CRC-32 of what is seen, continued: packed rows, spare bits 0. */
 uint32_t sim_panel_crc(const struct sim_panel *panel, uint32_t crc);

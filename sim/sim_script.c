@@ -8,21 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    WORDS = 4,
-    LINE_BYTES = 256,
-    STEPS_MAX = 1000,
-    POSITION_MAX = 32767
-};
+enum { WORDS = 4, LINE_BYTES = 256, STEPS_MAX = 1000, POSITION_MAX = 32767 };
 
 static const char *const control_names[OW_CONTROL_NAMED] = {
-    [OW_CONTROL_LEFT] = "left",      [OW_CONTROL_RIGHT] = "right",
-    [OW_CONTROL_UP] = "up",          [OW_CONTROL_DOWN] = "down",
-    [OW_CONTROL_IN] = "in",          [OW_CONTROL_OUT] = "out",
-    [OW_CONTROL_SELECT] = "select",  [OW_CONTROL_BACK] = "back",
-    [OW_CONTROL_KNOB_1] = "knob1",   [OW_CONTROL_KNOB_2] = "knob2",
-    [OW_CONTROL_KNOB_3] = "knob3",   [OW_CONTROL_AXIS_X] = "axis-x",
-    [OW_CONTROL_AXIS_Y] = "axis-y",  [OW_CONTROL_AXIS_Z] = "axis-z",
+    [OW_CONTROL_LEFT] = "left",     [OW_CONTROL_RIGHT] = "right",   [OW_CONTROL_UP] = "up",
+    [OW_CONTROL_DOWN] = "down",     [OW_CONTROL_IN] = "in",         [OW_CONTROL_OUT] = "out",
+    [OW_CONTROL_SELECT] = "select", [OW_CONTROL_BACK] = "back",     [OW_CONTROL_KNOB_1] = "knob1",
+    [OW_CONTROL_KNOB_2] = "knob2",  [OW_CONTROL_KNOB_3] = "knob3",  [OW_CONTROL_AXIS_X] = "axis-x",
+    [OW_CONTROL_AXIS_Y] = "axis-y", [OW_CONTROL_AXIS_Z] = "axis-z",
 };
 
 static const struct kind {
@@ -30,10 +23,10 @@ static const struct kind {
     enum ow_input_kind kind;
     int32_t limit; /* of the value's magnitude; 0: it takes none */
 } kinds[] = {
-    {"press", OW_INPUT_PRESS, 0},
-    {"release", OW_INPUT_RELEASE, 0},
-    {"turn", OW_INPUT_TURN, STEPS_MAX},
-    {"axis", OW_INPUT_AXIS, POSITION_MAX},
+    { "press", OW_INPUT_PRESS, 0 },
+    { "release", OW_INPUT_RELEASE, 0 },
+    { "turn", OW_INPUT_TURN, STEPS_MAX },
+    { "axis", OW_INPUT_AXIS, POSITION_MAX },
 };
 
 static bool wrong(struct sim_script_error *error, const char *format, ...)
@@ -78,9 +71,9 @@ static bool read_whole(const char *word, long long min, long long max, long long
 static bool read_control(const char *word, uint16_t *control)
 {
     long long number;
-    for (uint16_t i = 0; i < OW_CONTROL_NAMED; i++) {
+    for (int i = 0; i < OW_CONTROL_NAMED; i++) {
         if (strcmp(word, control_names[i]) == 0) {
-            *control = i;
+            *control = (uint16_t)i;
             return true;
         }
     }
@@ -116,8 +109,10 @@ static bool read_event(struct ow_input_event *event, char *words[WORDS], size_t 
         return wrong(error, "the time is before the line above, sort the events by time");
     }
     if (!read_control(words[1], &event->control)) {
-        return wrong(error, "'%s' is not a control: left, right, up, down, in, out, select, "
-                     "back, knob1 ..., axis-x ... or 0 to 255", words[1]);
+        return wrong(error,
+                     "'%s' is not a control: left, right, up, down, in, out, select, "
+                     "back, knob1 ..., axis-x ... or 0 to 255",
+                     words[1]);
     }
     const struct kind *kind = find_kind(words[2]);
     if (kind == NULL) {
@@ -178,8 +173,8 @@ static size_t count_lines(const char *text, size_t bytes)
 bool sim_script_parse(struct sim_script *script, const char *text, size_t bytes,
                       struct sim_script_error *error)
 {
-    *script = (struct sim_script){0};
-    *error = (struct sim_script_error){0};
+    *script = (struct sim_script){ 0 };
+    *error = (struct sim_script_error){ 0 };
     script->events = calloc(count_lines(text, bytes), sizeof *script->events);
     if (script->events == NULL) {
         return wrong(error, "not enough memory for the script");
@@ -200,7 +195,7 @@ bool sim_script_parse(struct sim_script *script, const char *text, size_t bytes,
 void sim_script_free(struct sim_script *script)
 {
     free(script->events);
-    *script = (struct sim_script){0};
+    *script = (struct sim_script){ 0 };
 }
 
 /* ---- the devices ---- */
@@ -236,5 +231,5 @@ static int script_wait(void *device, uint64_t until_us)
     return status < 0 ? status : event_first;
 }
 
-const struct ow_input_ops sim_script_input_ops = {script_next};
-const struct ow_wait_ops sim_script_wait_ops = {script_wait};
+const struct ow_input_ops sim_script_input_ops = { script_next };
+const struct ow_wait_ops sim_script_wait_ops = { script_wait };

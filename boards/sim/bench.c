@@ -9,8 +9,8 @@
 #include "sim/sim_clock.h"
 
 enum { PASSES_MIN = 5 };
-static const uint64_t ENOUGH_NS = 1000000000;      /* passes go on for a second */
-static const uint64_t TOO_LONG_NS = 60000000000;   /* a huge scene gets fewer than PASSES_MIN */
+static const uint64_t ENOUGH_NS = 1000000000;    /* passes go on for a second */
+static const uint64_t TOO_LONG_NS = 60000000000; /* a huge scene gets fewer than PASSES_MIN */
 
 void bench_probe(void *context, enum ow_probe point)
 {
@@ -63,8 +63,7 @@ void bench_print(struct bench *bench, const struct settings *settings, uint32_t 
            ",\"height\":%" PRIu32 ",\"frames\":%" PRIu32 ",\"ms_per_frame_min\":%.6f,"
            "\"ms_per_frame_median\":%.6f,",
            order_name(settings->look.order), shade_name(settings->look.shade),
-           settings->format->name, settings->size[0], settings->size[1], frames, times[0],
-           median);
+           settings->format->name, settings->size[0], settings->size[1], frames, times[0], median);
     printf("\"polygons_visited\":%" PRIu32 ",\"polygons_painted\":%" PRIu32
            ",\"pixels_written\":%" PRIu32 ",\"pixels_background\":%" PRIu32 ",\"spans\":%" PRIu32
            ",\"crc32\":%" PRIu32 "}\n",

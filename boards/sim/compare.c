@@ -85,8 +85,7 @@ static void write_beside(const struct settings *settings, const char *name, cons
     write_picture(path, format, image);
 }
 
-bool compare_frame(const struct settings *settings, const char *name,
-                   const struct image *actual)
+bool compare_frame(const struct settings *settings, const char *name, const struct image *actual)
 {
     const char *base = base_name(name);
     struct image expected;

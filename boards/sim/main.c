@@ -48,13 +48,14 @@ static void open_script(struct run *run)
     const char *file = run->settings.script;
     size_t bytes;
     char *text = read_whole_file(file, file, SCRIPT_BYTES_MAX, &bytes);
-    if (!sim_script_parse(&run->script, text, bytes, &error)) {
+    bool good = sim_script_parse(&run->script, text, bytes, &error);
+    free(text);
+    if (!good) {
         fail(FAIL_INPUT, file, error.line, "%s", error.text);
     }
-    free(text);
     run->script.clock = &run->clock;
-    run->input = (struct ow_input){&sim_script_input_ops, &run->script};
-    run->wait = (struct ow_wait){&sim_script_wait_ops, &run->script};
+    run->input = (struct ow_input){ &sim_script_input_ops, &run->script };
+    run->wait = (struct ow_wait){ &sim_script_wait_ops, &run->script };
     run->config.input = &run->input;
     run->config.wait = &run->wait;
     run->config.end = OW_VIEWER_HOLD;
@@ -91,7 +92,7 @@ static void start_viewer(struct run *run)
 {
     const struct settings *settings = &run->settings;
     struct ow_viewer_config *config = &run->config;
-    run->clock = (struct ow_clock){&sim_virtual_clock_ops, &run->time};
+    run->clock = (struct ow_clock){ &sim_virtual_clock_ops, &run->time };
     config->tree = &run->tree.tree;
     config->look = settings->look;
     config->camera = run->views.lens;
@@ -115,8 +116,7 @@ static void start_viewer(struct run *run)
     }
     int status = ow_viewer_start(&run->viewer, config, run->memory, bytes);
     if (status < 0) {
-        fail(FAIL_INPUT, run->tree.name, 0, "cannot start the viewer: %s",
-             ow_status_text(status));
+        fail(FAIL_INPUT, run->tree.name, 0, "cannot start the viewer: %s", ow_status_text(status));
     }
 }
 
@@ -131,8 +131,7 @@ static void print_stats(const struct run *run, double ms)
             ",\"pixels_written\":%" PRIu32 ",\"pixels_background\":%" PRIu32 ",\"spans\":%" PRIu32
             "}\n",
             run->viewer.frames - 1, ms, stats->polygons_visited, stats->polygons_painted,
-            stats->polygons_dropped, stats->pixels_written, stats->pixels_background,
-            stats->spans);
+            stats->polygons_dropped, stats->pixels_written, stats->pixels_background, stats->spans);
 }
 
 static void add_stats(struct run *run)
@@ -195,9 +194,10 @@ static void finish(struct run *run)
         outfile_commit(run->dump);
     }
     if (run->dropped > 0) {
-        warn_line(run->tree.name, 0, "%" PRIu32 " polygons were left out in %" PRIu32
-                  " frames: clipping gave them too many corners", run->sum.polygons_dropped,
-                  run->dropped);
+        warn_line(run->tree.name, 0,
+                  "%" PRIu32 " polygons were left out in %" PRIu32
+                  " frames: clipping gave them too many corners",
+                  run->sum.polygons_dropped, run->dropped);
     }
     if (run->panel.wrong != NULL) {
         fail(FAIL_INPUT, NULL, 0, "the viewer broke the panel's contract: %s", run->panel.wrong);

@@ -31,7 +31,7 @@ static size_t read_conversion(struct pattern *pattern, const char *text)
 
 bool pattern_read(struct pattern *pattern, const char *text, struct image_error *error)
 {
-    *pattern = (struct pattern){.digits = 1};
+    *pattern = (struct pattern){ .digits = 1 };
     if (strlen(text) >= PATTERN_BYTES) {
         return image_fail(error, "the name is too long");
     }
@@ -44,8 +44,10 @@ bool pattern_read(struct pattern *pattern, const char *text, struct image_error 
         } else {
             size_t length = read_conversion(pattern, text + at + 1);
             if (length == 0) {
-                return image_fail(error, "the frame's number is %%d or %%0Nd, N 1 to %d, and a "
-                                  "percent sign is %%%%", PATTERN_DIGITS_MAX);
+                return image_fail(error,
+                                  "the frame's number is %%d or %%0Nd, N 1 to %d, and a "
+                                  "percent sign is %%%%",
+                                  PATTERN_DIGITS_MAX);
             }
             if (pattern->numbered) {
                 return image_fail(error, "the frame's number may stand in the name only once");
@@ -62,8 +64,8 @@ bool pattern_name(const struct pattern *pattern, uint32_t frame, char *name, siz
 {
     int length;
     if (pattern->numbered) {
-        length = snprintf(name, bytes, "%s%0*" PRIu32 "%s", pattern->before,
-                          (int)pattern->digits, frame, pattern->after);
+        length = snprintf(name, bytes, "%s%0*" PRIu32 "%s", pattern->before, (int)pattern->digits,
+                          frame, pattern->after);
     } else {
         length = snprintf(name, bytes, "%s", pattern->before);
     }
@@ -81,8 +83,7 @@ static void write_image(struct outfile *out, const struct image_format *format,
     }
 }
 
-void write_picture(const char *file, const struct image_format *format,
-                   const struct image *image)
+void write_picture(const char *file, const struct image_format *format, const struct image *image)
 {
     struct outfile *out = outfile_open(file);
     write_image(out, format, image);
@@ -94,7 +95,7 @@ void output_begin(struct output *output, const struct settings *settings, uint32
     static const char default_pattern[] = "out-%04d";
     struct image_error error;
     const char *text = settings->output;
-    *output = (struct output){.settings = settings};
+    *output = (struct output){ .settings = settings };
     if (text != NULL && strcmp(text, "-") == 0) {
         output->stream = outfile_open("-");
         text = NULL;
@@ -105,8 +106,7 @@ void output_begin(struct output *output, const struct settings *settings, uint32
         settings_wrong("-o %s: %s", text, error.text);
     }
     if (frames != 1 && !output->pattern.numbered) {
-        settings_wrong("-o %s: several frames need a number in the name, %%04d for example",
-                       text);
+        settings_wrong("-o %s: several frames need a number in the name, %%04d for example", text);
     }
     if (settings->sheet != NULL) {
         output->sheet = outfile_open(settings->sheet);
@@ -127,7 +127,7 @@ static void keep(struct output *output, struct image *image)
         output->frames = larger;
     }
     output->frames[output->kept++] = *image;
-    *image = (struct image){0};
+    *image = (struct image){ 0 };
 }
 
 static void use_picture(struct output *output, struct image *image, uint32_t frame)
@@ -178,9 +178,8 @@ static void end_sheet(struct output *output)
     struct image_error error;
     struct image sheet;
     const struct settings *settings = output->settings;
-    const struct image_format *format = strcmp(settings->sheet, "-") == 0
-                                            ? &image_ppm
-                                            : image_format_of(settings->sheet, &error);
+    const struct image_format *format =
+        strcmp(settings->sheet, "-") == 0 ? &image_ppm : image_format_of(settings->sheet, &error);
     if (!image_sheet(&sheet, output->frames, output->kept, (uint32_t)settings->columns, &error)) {
         fail(FAIL_INPUT, settings->sheet, 0, "%s", error.text);
     }

@@ -40,10 +40,10 @@ struct output {
     struct image *frames; /* kept for sheet and animation */
     uint32_t kept;
     uint32_t room;
-    uint32_t count; /* frames seen */
-    uint32_t crc;   /* of all of them */
+    uint32_t count;  /* frames seen */
+    uint32_t crc;    /* of all of them */
     uint32_t differ; /* frames that --compare found different */
-    bool off;       /* frames are not looked at: a bench repeats them */
+    bool off;        /* frames are not looked at: a bench repeats them */
 };
 
 /* Opens what can be opened before the first frame; frames: how many will come, 0: unknown. */
@@ -62,13 +62,11 @@ void output_end(struct output *output);
  * pixels differ, and if any do (or there is no picture) writes NAME-actual and
  * NAME-diff. True if they are equal.
  */
-bool compare_frame(const struct settings *settings, const char *name,
-                   const struct image *actual);
+bool compare_frame(const struct settings *settings, const char *name, const struct image *actual);
 
 /* ---- output.c, for compare.c ---- */
 
 /* Writes one picture file, whole or not at all. */
-void write_picture(const char *file, const struct image_format *format,
-                   const struct image *image);
+void write_picture(const char *file, const struct image_format *format, const struct image *image);
 
 #endif

@@ -17,17 +17,17 @@
 enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000 };
 
 /* Names in the order of the core's enums where there is one; the rest is not there yet. */
-static const char *const orders[] = {"back-to-front", "front-to-back", "auto", "scanline", NULL};
-static const char *const shades[] = {"id", "flat", "gouraud", "phong", "lines", NULL};
-static const char *const culls[] = {"auto", "back", "none", NULL};
-static const char *const formats[] = {"xrgb8888", "rgb565", "gray4", "mono", NULL};
-static const char *const coverages[] = {"none", "4x4", NULL};
-static const char *const panels[] = {"lend", "write", NULL};
+static const char *const orders[] = { "back-to-front", "front-to-back", "auto", "scanline", NULL };
+static const char *const shades[] = { "id", "flat", "gouraud", "phong", "lines", NULL };
+static const char *const culls[] = { "auto", "back", "none", NULL };
+static const char *const formats[] = { "xrgb8888", "rgb565", "gray4", "mono", NULL };
+static const char *const coverages[] = { "none", "4x4", NULL };
+static const char *const panels[] = { "lend", "write", NULL };
 enum { ORDER_AUTO = 2, ORDERS_THERE = 3, SHADES_THERE = 2, FORMATS_THERE = 2 };
 
-static const struct ow_pixel_format *const pixel_formats[] = {&ow_format_xrgb8888,
-                                                              &ow_format_rgb565};
-static const enum sim_panel_kind panel_kinds[] = {SIM_PANEL_LENDS, SIM_PANEL_TAKES};
+static const struct ow_pixel_format *const pixel_formats[] = { &ow_format_xrgb8888,
+                                                               &ow_format_rgb565 };
+static const enum sim_panel_kind panel_kinds[] = { SIM_PANEL_LENDS, SIM_PANEL_TAKES };
 
 static const char usage[] = "TREE.owt [view] [look] [-o PATTERN] [--sheet FILE] [--gif FILE]\n"
                             "TREE.owt [view] [look] --bench | --compare DIR | --dump-views FILE";
@@ -37,6 +37,7 @@ static const char about[] =
 static const char notes[] =
     "A view is --eye (with --at and --up), a file of --views, or the orbit's first one.\n"
     "-o out-%04d.ppm (or .png) numbers the frames from 0; -o - writes PPMs to standard output.\n"
+    "--order auto is front-to-back until there is something to choose by.\n"
     "--views: nine numbers a line, eye, at, up, separated by blanks or commas; # is a comment.\n"
     "--script: one event a line, TIME CONTROL press|release|turn N|axis N; TIME in microseconds;\n"
     "  CONTROL left, right, up, down, in, out, select, knob1, knob2, knob3, axis-x, ...\n"
@@ -176,12 +177,12 @@ static bool is_stdout(const char *file)
 
 static void check_outputs(const struct settings *settings)
 {
-    bool anything = settings->output != NULL || settings->sheet != NULL ||
-                    settings->gif != NULL || settings->stats || settings->bench ||
-                    settings->compare != NULL || settings->dump_views != NULL;
+    bool anything = settings->output != NULL || settings->sheet != NULL || settings->gif != NULL ||
+                    settings->stats || settings->bench || settings->compare != NULL ||
+                    settings->dump_views != NULL;
     int on_stdout = is_stdout(settings->output) + is_stdout(settings->sheet) +
-                    is_stdout(settings->gif) + is_stdout(settings->dump_views) +
-                    settings->bench + (settings->compare != NULL);
+                    is_stdout(settings->gif) + is_stdout(settings->dump_views) + settings->bench +
+                    (settings->compare != NULL);
     if (!anything) {
         settings_wrong("nothing to do: give -o, --sheet, --gif, --stats, --bench or --compare");
     }
@@ -219,8 +220,8 @@ static void check_outputs(const struct settings *settings)
 static void set_defaults(struct settings *settings, struct raw *raw)
 {
     *settings = (struct settings){
-        .size = {320, 240},
-        .up = {0, 1, 0},
+        .size = { 320, 240 },
+        .up = { 0, 1, 0 },
         .fov = 45,
         .orbit = 1,
         .elevation = 15,
@@ -232,7 +233,7 @@ static void set_defaults(struct settings *settings, struct raw *raw)
         .threads = 1,
         .background = "20242c",
         .ambient = 0.3,
-        .light = {-0.4, 0.6, 0.7},
+        .light = { -0.4, 0.6, 0.7 },
     };
 }
 
@@ -241,72 +242,71 @@ void settings_read(struct settings *s, int argc, char **argv)
     struct raw raw;
     set_defaults(s, &raw);
     const struct option_spec specs[] = {
-        {"size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX},
-        {"eye", 0, OPTION_VECTOR, s->eye, "x,y,z", "where the eye is, in model units",
-         .given = &s->has_eye, .no_default = true},
-        {"at", 0, OPTION_VECTOR, s->at, "x,y,z", "what it looks at (the model's middle)",
-         .given = &s->has_at, .no_default = true},
-        {"up", 0, OPTION_VECTOR, s->up, "x,y,z", "what is up in the picture",
-         .given = &raw.has_up},
-        {"fov", 0, OPTION_DOUBLE, &s->fov, "DEG", "vertical field of view", .min = 1, .max = 170,
-         .given = &raw.has_fov},
-        {"parallel", 0, OPTION_DOUBLE, &s->parallel, "HEIGHT",
-         "parallel projection, what the picture's height shows", .given = &raw.has_parallel,
-         .no_default = true},
-        {"near", 0, OPTION_DOUBLE, &s->near, "D", "distance of the near plane (16 lattice steps)",
-         .given = &raw.has_near, .no_default = true},
-        {"orbit", 0, OPTION_UNSIGNED, &s->orbit, "N", "N views of one turn around the model",
-         .min = 1, .max = ORBIT_MAX, .given = &raw.has_orbit},
-        {"elevation", 0, OPTION_DOUBLE, &s->elevation, "DEG", "the orbit's height",
-         .min = -ELEVATION_MAX, .max = ELEVATION_MAX, .given = &raw.has_elevation},
-        {"views", 0, OPTION_STRING, &s->views, "FILE", .help = "views, one a line"},
-        {"script", 0, OPTION_STRING, &s->script, "FILE",
-         .help = "input events that turn the model"},
-        {"order", 0, OPTION_CHOICE, &raw.order, NULL, "the surface", .choices = orders},
-        {"shade", 0, OPTION_CHOICE, &raw.shade, NULL, "id: the source polygon's number",
-         .choices = shades},
-        {"cull", 0, OPTION_CHOICE, &raw.cull, NULL, "auto: as the tree was built",
-         .choices = culls},
-        {"format", 0, OPTION_CHOICE, &raw.format, NULL, "the panel's pixels",
-         .choices = formats},
-        {"aa", 0, OPTION_CHOICE, &raw.coverage, NULL, "coverage", .choices = coverages},
-        {"threads", 0, OPTION_UNSIGNED, &raw.threads, "N", "bands drawn at a time", .min = 1,
-         .max = 64},
-        {"background", 0, OPTION_STRING, &raw.background, "RRGGBB",
-         .help = "colour behind the model"},
-        {"ambient", 0, OPTION_DOUBLE, &raw.ambient, "A",
-         "share of the light from everywhere, the rest is directional", .min = 0, .max = 1},
-        {"light", 0, OPTION_VECTOR, raw.light, "x,y,z",
-         .help = "towards the light: right, up, to the viewer"},
-        {"light-in-model", 0, OPTION_FLAG, &raw.light_in_model, NULL,
-         .help = "--light is along the model's axes instead"},
-        {"output", 'o', OPTION_STRING, &s->output, "PATTERN", .help = "a picture of each frame"},
-        {"sheet", 0, OPTION_STRING, &s->sheet, "FILE", .help = "all frames on one picture"},
-        {"columns", 0, OPTION_UNSIGNED, &s->columns, "N", "of the sheet (about square)",
-         .min = 1, .max = 1000, .no_default = true},
-        {"gif", 0, OPTION_STRING, &s->gif, "FILE", .help = "an animated picture"},
-        {"interval", 0, OPTION_UNSIGNED, &s->interval_ms, "MS",
-         "between two frames, of the GIF and of a turn under --script", .min = 10, .max = 60000},
-        {"stats", 0, OPTION_FLAG, &s->stats, NULL,
-         .help = "one line of JSON a frame on standard error"},
-        {"bench", 0, OPTION_FLAG, &s->bench, NULL, .help = "measure, print one line of JSON"},
-        {"passes", 0, OPTION_UNSIGNED, &s->passes, "N",
-         "of the bench over all views (as many as a second allows)", .min = 1,
-         .max = BENCH_PASSES_MAX, .no_default = true},
-        {"compare", 0, OPTION_STRING, &s->compare, "DIR",
-         .help = "compare each frame with the picture of its name in DIR"},
-        {"diff-dir", 0, OPTION_STRING, &s->diff_dir, "DIR",
-         .help = "where --compare writes its pictures (beside -o, or here)"},
-        {"dump-views", 0, OPTION_STRING, &s->dump_views, "FILE",
-         .help = "the views' integers as JSON"},
-        {"panel", 0, OPTION_CHOICE, &raw.panel, NULL, "it lends its memory, or takes bands",
-         .choices = panels},
-        {"band", 0, OPTION_UNSIGNED, &s->band_lines, "LINES", "drawn at a time (all)", .min = 1,
-         .max = OW_SCREEN_MAX, .no_default = true},
+        { "size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX },
+        { "eye", 0, OPTION_VECTOR, s->eye, "x,y,z", "where the eye is, in model units",
+          .given = &s->has_eye, .no_default = true },
+        { "at", 0, OPTION_VECTOR, s->at, "x,y,z", "what it looks at (the model's middle)",
+          .given = &s->has_at, .no_default = true },
+        { "up", 0, OPTION_VECTOR, s->up, "x,y,z", "what is up in the picture",
+          .given = &raw.has_up },
+        { "fov", 0, OPTION_DOUBLE, &s->fov, "DEG", "vertical field of view", .min = 1, .max = 170,
+          .given = &raw.has_fov },
+        { "parallel", 0, OPTION_DOUBLE, &s->parallel, "HEIGHT",
+          "parallel projection, what the picture's height shows", .given = &raw.has_parallel,
+          .no_default = true },
+        { "near", 0, OPTION_DOUBLE, &s->near, "D", "distance of the near plane (16 lattice steps)",
+          .given = &raw.has_near, .no_default = true },
+        { "orbit", 0, OPTION_UNSIGNED, &s->orbit, "N", "N views of one turn around the model",
+          .min = 1, .max = ORBIT_MAX, .given = &raw.has_orbit },
+        { "elevation", 0, OPTION_DOUBLE, &s->elevation, "DEG", "the orbit's height",
+          .min = -ELEVATION_MAX, .max = ELEVATION_MAX, .given = &raw.has_elevation },
+        { "views", 0, OPTION_STRING, &s->views, "FILE", .help = "views, one a line" },
+        { "script", 0, OPTION_STRING, &s->script, "FILE",
+          .help = "input events that turn the model" },
+        { "order", 0, OPTION_CHOICE, &raw.order, NULL, "the surface", .choices = orders },
+        { "shade", 0, OPTION_CHOICE, &raw.shade, NULL, "id: the source polygon's number",
+          .choices = shades },
+        { "cull", 0, OPTION_CHOICE, &raw.cull, NULL, "auto: as the tree was built",
+          .choices = culls },
+        { "format", 0, OPTION_CHOICE, &raw.format, NULL, "the panel's pixels", .choices = formats },
+        { "aa", 0, OPTION_CHOICE, &raw.coverage, NULL, "coverage", .choices = coverages },
+        { "threads", 0, OPTION_UNSIGNED, &raw.threads, "N", "bands drawn at a time", .min = 1,
+          .max = 64 },
+        { "background", 0, OPTION_STRING, &raw.background, "RRGGBB",
+          .help = "colour behind the model" },
+        { "ambient", 0, OPTION_DOUBLE, &raw.ambient, "A",
+          "share of the light from everywhere, the rest is directional", .min = 0, .max = 1 },
+        { "light", 0, OPTION_VECTOR, raw.light, "x,y,z",
+          .help = "towards the light: right, up, to the viewer" },
+        { "light-in-model", 0, OPTION_FLAG, &raw.light_in_model, NULL,
+          .help = "--light is along the model's axes instead" },
+        { "output", 'o', OPTION_STRING, &s->output, "PATTERN", .help = "a picture of each frame" },
+        { "sheet", 0, OPTION_STRING, &s->sheet, "FILE", .help = "all frames on one picture" },
+        { "columns", 0, OPTION_UNSIGNED, &s->columns, "N", "of the sheet (about square)", .min = 1,
+          .max = 1000, .no_default = true },
+        { "gif", 0, OPTION_STRING, &s->gif, "FILE", .help = "an animated picture" },
+        { "interval", 0, OPTION_UNSIGNED, &s->interval_ms, "MS",
+          "between two frames, of the GIF and of a turn under --script", .min = 10, .max = 60000 },
+        { "stats", 0, OPTION_FLAG, &s->stats, NULL,
+          .help = "one line of JSON a frame on standard error" },
+        { "bench", 0, OPTION_FLAG, &s->bench, NULL, .help = "measure, print one line of JSON" },
+        { "passes", 0, OPTION_UNSIGNED, &s->passes, "N",
+          "of the bench over all views (as many as a second allows)", .min = 1,
+          .max = BENCH_PASSES_MAX, .no_default = true },
+        { "compare", 0, OPTION_STRING, &s->compare, "DIR",
+          .help = "compare each frame with the picture of its name in DIR" },
+        { "diff-dir", 0, OPTION_STRING, &s->diff_dir, "DIR",
+          .help = "where --compare writes its pictures (beside -o, or here)" },
+        { "dump-views", 0, OPTION_STRING, &s->dump_views, "FILE",
+          .help = "the views' integers as JSON" },
+        { "panel", 0, OPTION_CHOICE, &raw.panel, NULL, "it lends its memory, or takes bands",
+          .choices = panels },
+        { "band", 0, OPTION_UNSIGNED, &s->band_lines, "LINES", "drawn at a time (all)", .min = 1,
+          .max = OW_SCREEN_MAX, .no_default = true },
     };
     static struct option_table table;
-    table = (struct option_table){usage, about, specs, sizeof specs / sizeof specs[0], 1, 1,
-                                  notes};
+    table =
+        (struct option_table){ usage, about, specs, sizeof specs / sizeof specs[0], 1, 1, notes };
     the_table = &table;
     options_parse(&table, argc, argv, &s->tree);
     read_look(s, &raw);

@@ -39,7 +39,7 @@ struct settings {
     uint64_t interval_ms;
     bool stats;
     bool bench;
-    uint64_t passes; /* of the bench, 0: until the figures are steady */
+    uint64_t passes;     /* of the bench, 0: until the figures are steady */
     const char *compare; /* folder or NULL */
     const char *diff_dir;
     const char *dump_views;

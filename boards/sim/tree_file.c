@@ -23,9 +23,12 @@ static char *read_stream(FILE *stream, const char *name, size_t max_bytes, size_
     while (memory != NULL) {
         *bytes += fread(memory + *bytes, 1, capacity - *bytes, stream);
         if (ferror(stream)) {
-            fail(FAIL_INPUT, name, 0, "cannot read: %s", strerror(errno));
+            int error = errno;
+            free(memory);
+            fail(FAIL_INPUT, name, 0, "cannot read: %s", strerror(error));
         }
         if (*bytes > max_bytes) {
+            free(memory);
             fail(FAIL_INPUT, name, 0, "the file is larger than %zu bytes", max_bytes);
         }
         if (*bytes < capacity) {
@@ -76,7 +79,8 @@ static void read_lattice(struct tree_file *file)
     }
     file->step = read_double(file->bytes, offsetof(struct ow_disk_header, step_bits));
     if (!good || !isfinite(file->step) || !(file->step > 0)) {
-        fail(FAIL_INPUT, file->name, 0, "the header's origin or step is not a sound number, "
+        fail(FAIL_INPUT, file->name, 0,
+             "the header's origin or step is not a sound number, "
              "compile the model again");
     }
 }
@@ -98,7 +102,7 @@ static const char *remedy(enum ow_status status)
 void tree_file_open(struct tree_file *file, const char *name)
 {
     size_t bytes;
-    *file = (struct tree_file){.name = strcmp(name, "-") == 0 ? "standard input" : name};
+    *file = (struct tree_file){ .name = strcmp(name, "-") == 0 ? "standard input" : name };
     file->bytes = read_whole_file(name, file->name, OW_MAX_BLOB_BYTES, &bytes);
     if (bytes == 0) {
         fail(FAIL_INPUT, file->name, 0, "the file is empty");
@@ -113,5 +117,5 @@ void tree_file_open(struct tree_file *file, const char *name)
 void tree_file_close(struct tree_file *file)
 {
     free(file->bytes);
-    *file = (struct tree_file){0};
+    *file = (struct tree_file){ 0 };
 }

@@ -75,7 +75,7 @@ static void make_lens(struct views *views, const struct settings *settings,
                       const struct tree_file *tree)
 {
     struct ow_camera *lens = &views->lens;
-    *lens = (struct ow_camera){.projection = OW_PERSPECTIVE};
+    *lens = (struct ow_camera){ .projection = OW_PERSPECTIVE };
     if (settings->parallel > 0) {
         lens->projection = OW_PARALLEL;
         lens->height = length_q8(settings->parallel, tree);
@@ -93,6 +93,14 @@ static void make_lens(struct views *views, const struct settings *settings,
     }
 }
 
+static void *need(void *memory)
+{
+    if (memory == NULL) {
+        fail(FAIL_INPUT, NULL, 0, "not enough memory for the views");
+    }
+    return memory;
+}
+
 /* ---- one view from the command line ---- */
 
 static void make_single(struct views *views, const struct settings *settings,
@@ -105,10 +113,7 @@ static void make_single(struct views *views, const struct settings *settings,
         model.at[i] = settings->has_at ? settings->at[i] : tree->origin[i] + middle * tree->step;
         model.up[i] = settings->up[i];
     }
-    views->list = malloc(sizeof *views->list);
-    if (views->list == NULL) {
-        fail(FAIL_INPUT, NULL, 0, "not enough memory for the views");
-    }
+    views->list = need(malloc(sizeof *views->list));
     views->count = 1;
     views->list[0] = views->lens;
     const char *why = convert(&views->list[0], &model, tree);
@@ -138,8 +143,8 @@ static int read_numbers(char *line, double numbers[VIEW_NUMBERS])
     return count;
 }
 
-static void take_line(struct views *views, char *line, long number,
-                      const struct settings *settings, const struct tree_file *tree)
+static void take_line(struct views *views, char *line, long number, const struct settings *settings,
+                      const struct tree_file *tree)
 {
     double numbers[VIEW_NUMBERS];
     int count = read_numbers(line, numbers);
@@ -167,15 +172,12 @@ static void make_list(struct views *views, const struct settings *settings,
 {
     size_t bytes;
     char *text = read_whole_file(settings->views, settings->views, FILE_BYTES_MAX, &bytes);
-    char *lines = malloc(bytes + 1);
+    char *lines = need(malloc(bytes + 1));
     size_t line_count = 1;
     for (size_t i = 0; i < bytes; i++) {
         line_count += text[i] == '\n';
     }
-    views->list = calloc(line_count, sizeof *views->list);
-    if (lines == NULL || views->list == NULL) {
-        fail(FAIL_INPUT, settings->views, 0, "not enough memory for the views");
-    }
+    views->list = need(calloc(line_count, sizeof *views->list));
     memcpy(lines, text, bytes);
     lines[bytes] = '\0';
     free(text);
@@ -193,10 +195,9 @@ static void make_list(struct views *views, const struct settings *settings,
     }
 }
 
-void views_make(struct views *views, const struct settings *settings,
-                const struct tree_file *tree)
+void views_make(struct views *views, const struct settings *settings, const struct tree_file *tree)
 {
-    *views = (struct views){.count = (uint32_t)settings->orbit};
+    *views = (struct views){ .count = (uint32_t)settings->orbit };
     make_lens(views, settings, tree);
     if (settings->views != NULL) {
         views->count = 0;
@@ -209,7 +210,7 @@ void views_make(struct views *views, const struct settings *settings,
 void views_free(struct views *views)
 {
     free(views->list);
-    *views = (struct views){0};
+    *views = (struct views){ 0 };
 }
 
 int views_give(void *context, uint32_t number, struct ow_camera *camera)

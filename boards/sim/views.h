@@ -16,8 +16,7 @@ struct views {
 };
 
 /* Ends the program if a view cannot be made: status 2, or 1 for a wrong file of views. */
-void views_make(struct views *views, const struct settings *settings,
-                const struct tree_file *tree);
+void views_make(struct views *views, const struct settings *settings, const struct tree_file *tree);
 void views_free(struct views *views);
 
 /* The viewer's callback; context: struct views. */

@@ -14,8 +14,8 @@ static int null_info(void *device, struct ow_panel_info *info)
     info->height = panel->height;
     info->format = panel->format; /* what the glass wants, byte order included */
     info->keep = 0;
-    info->align_x = 1; /* 2 for 4-bit pixels, 8 for 1-bit pixels in many controllers */
-    info->align_y = 1; /* 8 for controllers with pages of 8 lines */
+    info->align_x = 1;    /* 2 for 4-bit pixels, 8 for 1-bit pixels in many controllers */
+    info->align_y = 1;    /* 8 for controllers with pages of 8 lines */
     info->rect_bytes = 0; /* the window's commands: 11 bytes for column, row and write */
     info->buffers = 0;    /* it lends nothing: lend and show are missing below */
     return OW_OK;

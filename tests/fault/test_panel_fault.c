@@ -25,15 +25,15 @@ static const struct variant {
     uint8_t bands;
     uint32_t delay;
 } variants[] = {
-    {"lend", SIM_PANEL_LENDS, 1, 0, 1, 0},
-    {"lend, two buffers, bands", SIM_PANEL_LENDS, 2, 16, 1, 0},
-    {"write", SIM_PANEL_TAKES, 0, 0, 1, 0},
-    {"write, bands", SIM_PANEL_TAKES, 0, 16, 1, 0},
-    {"write, two slow bands", SIM_PANEL_TAKES, 0, 16, 2, 3},
+    { "lend", SIM_PANEL_LENDS, 1, 0, 1, 0 },
+    { "lend, two buffers, bands", SIM_PANEL_LENDS, 2, 16, 1, 0 },
+    { "write", SIM_PANEL_TAKES, 0, 0, 1, 0 },
+    { "write, bands", SIM_PANEL_TAKES, 0, 16, 1, 0 },
+    { "write, two slow bands", SIM_PANEL_TAKES, 0, 16, 2, 3 },
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
-static const int statuses[] = {OW_BUS, OW_GONE, OW_TIMEOUT, OW_BUSY};
+static const int statuses[] = { OW_BUS, OW_GONE, OW_TIMEOUT, OW_BUSY };
 enum { STATUSES = sizeof statuses / sizeof statuses[0] };
 
 static void open_variant(struct scene *scene, const struct variant *variant)
@@ -178,9 +178,9 @@ static void a_panel_that_fails_at_the_start_is_reported(void **state)
         open_variant(&scene, &variants[v]);
         scene.panel.config.fail_at = scene.panel.calls + 1;
         scene.panel.config.fail_status = OW_DENIED;
-        assert_int_equal(ow_viewer_start(&scene.viewer, &scene.config, scene.memory,
-                                         scene.memory_bytes),
-                         OW_DENIED);
+        assert_int_equal(
+            ow_viewer_start(&scene.viewer, &scene.config, scene.memory, scene.memory_bytes),
+            OW_DENIED);
         assert_true(scene.viewer.finished);
         scene.panel.config.fail_at = scene.panel.calls + 1;
         assert_int_equal(ow_viewer_bytes_needed(&scene.config), 0);

@@ -13,30 +13,34 @@ new=$dir/crc32.txt
 bad=0
 mkdir -p "$dir"
 
-# NAME: owgen's arguments: owc's: owsim's. A name may draw an earlier one's model: `=NAME`.
+# NAME: owgen's arguments: owc's: owsim's. `=NAME` draws an earlier scene's model again; a line
+# that begins with a blank continues the one before.
 scenes() {
-    cat <<'SCENES'
-cubes:           cubes:                    --keep-ids:        --orbit 8 --size 160x120
-cubes-id:        =cubes:                   :                  --orbit 8 --size 160x120 --shade id
-cubes-565:       =cubes:                   :                  --orbit 8 --size 160x120 --format rgb565
-cubes-odd:       =cubes:                   :                  --orbit 4 --size 101x77
-cubes-pixel:     =cubes:                   :                  --orbit 4 --size 1x1
-cubes-parallel:  =cubes:                   :                  --orbit 4 --size 160x120 --parallel 4
-cubes-wide:      =cubes:                   :                  --orbit 4 --size 160x120 --fov 120
-cubes-above:     =cubes:                   :                  --orbit 4 --size 160x120 --elevation 80
-cubes-light:     =cubes:                   :                  --orbit 4 --size 160x120 --light 1,0,0 --light-in-model --ambient 0.1 --background 400000
-oldwell-low:     oldwell --detail low:     --keep-ids:        --orbit 8 --size 160x120
-oldwell-high:    oldwell --detail high:    --keep-ids:        --orbit 8 --size 320x240
-oldwell-id:      =oldwell-high:            :                  --orbit 8 --size 320x240 --shade id
-oldwell-inside:  =oldwell-high:            :                  --views tests/golden/oldwell-inside.txt --size 160x120
-klein:           klein:                    --keep-ids:        --orbit 8 --size 160x120
-ribbon:          ribbon:                   --keep-ids:        --orbit 8 --size 160x120
-atoms:           atoms:                    --keep-ids:        --orbit 8 --size 160x120
-robot:           robot:                    --keep-ids:        --orbit 8 --size 160x120
-vise:            vise:                     --keep-ids:        --orbit 8 --size 160x120
-house:           house:                    --keep-ids:        --orbit 8 --size 160x120
-random:          random --count 60 --size 500 --seed 1:   --keep-ids:  --parallel 1000 --eye 500,500,2000 --at 500,500,500 --up 0,1,0 --size 200x200
-parallel:        parallel --count 300 --size 500 --seed 1: --keep-ids: --parallel 1000 --eye 500,500,2000 --at 500,500,500 --up 0,1,0 --size 200x200
+    sed -e ':a' -e '$!N' -e 's/\n  */ /' -e 'ta' -e 'P' -e 'D' <<'SCENES'
+cubes: cubes: --keep-ids: --orbit 8 --size 160x120
+cubes-id: =cubes: : --orbit 8 --size 160x120 --shade id
+cubes-565: =cubes: : --orbit 8 --size 160x120 --format rgb565
+cubes-odd: =cubes: : --orbit 4 --size 101x77
+cubes-pixel: =cubes: : --orbit 4 --size 1x1
+cubes-parallel: =cubes: : --orbit 4 --size 160x120 --parallel 4
+cubes-wide: =cubes: : --orbit 4 --size 160x120 --fov 120
+cubes-above: =cubes: : --orbit 4 --size 160x120 --elevation 80
+cubes-light: =cubes: : --orbit 4 --size 160x120
+    --light 1,0,0 --light-in-model --ambient 0.1 --background 400000
+oldwell-low: oldwell --detail low: --keep-ids: --orbit 8 --size 160x120
+oldwell-high: oldwell --detail high: --keep-ids: --orbit 8 --size 320x240
+oldwell-id: =oldwell-high: : --orbit 8 --size 320x240 --shade id
+oldwell-inside: =oldwell-high: : --views tests/golden/oldwell-inside.txt --size 160x120
+klein: klein: --keep-ids: --orbit 8 --size 160x120
+ribbon: ribbon: --keep-ids: --orbit 8 --size 160x120
+atoms: atoms: --keep-ids: --orbit 8 --size 160x120
+robot: robot: --keep-ids: --orbit 8 --size 160x120
+vise: vise: --keep-ids: --orbit 8 --size 160x120
+house: house: --keep-ids: --orbit 8 --size 160x120
+random: random --count 60 --size 500 --seed 1: --keep-ids: --size 200x200
+    --parallel 1000 --eye 500,500,2000 --at 500,500,500 --up 0,1,0
+parallel: parallel --count 300 --size 500 --seed 1: --keep-ids: --size 200x200
+    --parallel 1000 --eye 500,500,2000 --at 500,500,500 --up 0,1,0
 SCENES
 }
 

@@ -11,20 +11,16 @@
 #include <string.h>
 
 /* From the best to the worst. */
-enum outcome { SAME, EDGE, NEAR_STEP, TIE, SLANT, WRONG };
+enum outcome { SAME, EDGE, NEAR_STEP, TIE, SLANT, RIM, STRIP, WRONG };
 
 struct search {
     const struct scene *scene;
     double tie; /* lattice steps */
     double x, y; /* the pixel's centre */
+    bool rims;   /* outlines that end at a rim may be off by rounding */
     enum outcome best;
+    enum outcome enough; /* the search ends with this */
 };
-
-/* Pixels that a lattice step covers at this depth. */
-static double step_at(const struct camera *c, double z)
-{
-    return c->parallel ? c->focal : c->focal / fmax(z, c->near_z);
-}
 
 /* How shape s, seen at depth z at a point, stands against all that cover the point. */
 static enum outcome compare(const struct search *search, const struct shape *s, double x, double y,
@@ -37,7 +33,8 @@ static enum outcome compare(const struct search *search, const struct shape *s, 
     double slope = shape_slope(scene, s, x, y);
     for (uint32_t i = 0; i < count; i++) {
         const struct shape *p = &scene->shapes[items[i]];
-        if (p->id == s->id || p->z_min >= z || !shape_covers(scene, p, x, y)) {
+        if (p->id == s->id || p->z_min >= z ||
+            !(search->rims ? shape_covers_surely : shape_covers)(scene, p, x, y)) {
             continue;
         }
         double gap = z - shape_depth(scene, p, x, y);
@@ -60,12 +57,17 @@ static void try_point(struct search *search, const struct shape *s, double x, do
 {
     double z = shape_depth(search->scene, s, x, y);
     double distance = hypot(x - search->x, y - search->y);
-    if (distance > 1 && distance > step_at(search->scene->camera, z)) {
+    double step = scene_step(search->scene->camera, z);
+    /* A back shows by rounding alone: that and a lattice step are all it may be off. */
+    if (distance > (s->facing ? fmax(1, step) : 1.0 / 8 + step)) {
         return;
     }
     enum outcome outcome = compare(search, s, x, y, z);
     if (outcome == EDGE && distance > 1) {
         outcome = NEAR_STEP;
+    }
+    if (search->rims && outcome != WRONG) {
+        outcome = RIM;
     }
     if (outcome < search->best) {
         search->best = outcome;
@@ -97,7 +99,7 @@ static void try_outline(struct search *search, const struct shape *s, const doub
                         const double high[2], int level)
 {
     const struct spot *p = search->scene->spots + s->first;
-    for (uint32_t i = 0, j = s->count - 1; i < s->count && search->best > TIE; j = i++) {
+    for (uint32_t i = 0, j = s->count - 1; i < s->count && search->best > search->enough; j = i++) {
         double range[2];
         if (!clip_line(p[j], p[i], low, high, range)) {
             continue;
@@ -111,17 +113,17 @@ static void try_outline(struct search *search, const struct shape *s, const doub
 
 static void try_shape(struct search *search, const struct shape *s, int level)
 {
-    if (!s->facing) {
+    if (!s->facing && !search->rims) {
         return;
     }
-    double reach = fmax(1, step_at(search->scene->camera, s->z_min));
+    double reach = fmax(1, scene_step(search->scene->camera, s->z_min));
     double low[2] = { fmax(s->x_min, search->x - reach), fmax(s->y_min, search->y - reach) };
     double high[2] = { fmin(s->x_max, search->x + reach), fmin(s->y_max, search->y + reach) };
     if (low[0] > high[0] || low[1] > high[1]) {
         return;
     }
-    for (int i = 0; i <= level && search->best > TIE; i++) {
-        for (int k = 0; k <= level && search->best > TIE; k++) {
+    for (int i = 0; i <= level && s->facing && search->best > search->enough; i++) {
+        for (int k = 0; k <= level && search->best > search->enough; k++) {
             double x = low[0] + (high[0] - low[0]) * i / level;
             double y = low[1] + (high[1] - low[1]) * k / level;
             if (shape_winding(search->scene, s, x, y) != 0) {
@@ -142,6 +144,133 @@ static uint32_t id_at(const struct scene *scene, int64_t x, int64_t y)
     return seen ? scene->shapes[seen - 1].id : 0;
 }
 
+static void try_all(struct search *search, uint32_t id, int level)
+{
+    const struct scene *scene = search->scene;
+    for (uint32_t i = scene->id_first[id]; i < scene->id_first[id + 1]; i++) {
+        try_shape(search, &scene->shapes[scene->id_shapes[i]], level);
+    }
+}
+
+/* ---- planes seen edge-on ---------------------------------------------------------------------- */
+static struct vec point_at(const struct camera *c, double x, double y, double z)
+{
+    struct vec r = scene_ray(c, x, y);
+    return c->parallel ? (struct vec){ r.x, r.y, z } : (struct vec){ r.x * z, r.y * z, z };
+}
+
+/* The tolerance, or 1/8 pixel at this depth. */
+static double plane_bound(const struct search *search, double z)
+{
+    return fmax(search->tie / 2, 1 / (8 * scene_step(search->scene->camera, z)));
+}
+
+/* A shape's plane holds both points within the bound. */
+static bool holds(const struct search *search, const struct shape *plane, struct vec a,
+                  struct vec b)
+{
+    return fabs(vec_dot(plane->normal, a) + plane->offset) <= plane_bound(search, a.z) &&
+           fabs(vec_dot(plane->normal, b) + plane->offset) <= plane_bound(search, b.z);
+}
+
+static bool share_a_plane(const struct search *search, const struct shape *plane, struct vec a,
+                          struct vec b)
+{
+    const struct scene *scene = search->scene;
+    for (size_t i = 0; !plane && i < scene->shape_count; i++) {
+        if (holds(search, &scene->shapes[i], a, b)) {
+            return true;
+        }
+    }
+    return plane && holds(search, plane, a, b);
+}
+
+/* Does all that hides s at a point lie on one plane with s there? NULL: on any plane. */
+static bool strip_at(const struct search *search, const struct shape *s,
+                     const struct shape *plane, double x, double y)
+{
+    const struct scene *scene = search->scene;
+    uint32_t count;
+    const uint32_t *items = scene_candidates(scene, x, y, &count);
+    double z = shape_depth(scene, s, x, y);
+    bool found = false;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct shape *p = &scene->shapes[items[i]];
+        if (p->id == s->id || p->z_min >= z || !shape_covers(scene, p, x, y)) {
+            continue;
+        }
+        double at = shape_depth(scene, p, x, y);
+        if (z - at > search->tie + s->slack + p->slack) {
+            if (!share_a_plane(search, plane, point_at(scene->camera, x, y, z),
+                               point_at(scene->camera, x, y, at))) {
+                return false;
+            }
+            found = true;
+        }
+    }
+    return found;
+}
+
+/*
+ * A plane seen edge-on cuts s: the compiler may have cut s there. The point to
+ * look at is the one next to the pixel where s meets the plane.
+ */
+static bool plane_cuts(const struct search *search, const struct shape *s,
+                       const struct shape *plane)
+{
+    const struct camera *c = search->scene->camera;
+    struct vec r = scene_ray(c, search->x, search->y), n = plane->normal;
+    double across = hypot(n.x, n.y);
+    double z = shape_depth(search->scene, s, search->x, search->y);
+    if (c->parallel || across == 0 || fabs(plane->offset) > plane_bound(search, z)) {
+        return false;
+    }
+    double off = (vec_dot(n, r) + plane->offset / z) / across;
+    double x = search->x - off * n.x / across * c->focal;
+    double y = search->y + off * n.y / across * c->focal;
+    return hypot(x - search->x, y - search->y) <= 1 && shape_covers(search->scene, s, x, y) &&
+           strip_at(search, s, plane, x, y);
+}
+
+static void try_cuts(struct search *search, uint32_t id)
+{
+    const struct scene *scene = search->scene;
+    for (uint32_t n = scene->id_first[id]; n < scene->id_first[id + 1]; n++) {
+        for (size_t i = 0; i < scene->shape_count; i++) {
+            if (plane_cuts(search, &scene->shapes[scene->id_shapes[n]], &scene->shapes[i])) {
+                search->best = STRIP;
+                return;
+            }
+        }
+    }
+}
+
+static void try_strip(struct search *search, uint32_t id)
+{
+    const struct scene *scene = search->scene;
+    const double low[2] = { search->x - 1, search->y - 1 }, high[2] = { search->x + 1,
+                                                                        search->y + 1 };
+    for (uint32_t n = scene->id_first[id]; n < scene->id_first[id + 1]; n++) {
+        const struct shape *s = &scene->shapes[scene->id_shapes[n]];
+        const struct spot *p = scene->spots + s->first;
+        for (uint32_t i = 0, j = s->count - 1; s->facing && i < s->count; j = i++) {
+            double range[2];
+            if (!clip_line(p[j], p[i], low, high, range)) {
+                continue;
+            }
+            for (int k = 0; k <= 16; k++) {
+                double t = range[0] + (range[1] - range[0]) * k / 16;
+                if (strip_at(search, s, NULL, p[j].x + t * (p[i].x - p[j].x),
+                             p[j].y + t * (p[i].y - p[j].y))) {
+                    search->best = STRIP;
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/* ---- polygons shown --------------------------------------------------------------------------- */
 /* The pixel shows polygon `id`. */
 static enum outcome judge_polygon(const struct scene *scene, double tie, int64_t x, int64_t y,
                                   uint32_t id)
@@ -153,22 +282,32 @@ static enum outcome judge_polygon(const struct scene *scene, double tie, int64_t
         id_at(scene, x, y - 1) == id || id_at(scene, x, y + 1) == id) {
         return EDGE;
     }
-    struct search search = { scene, tie, (double)x + 0.5, (double)y + 0.5, WRONG };
+    struct search search = { scene, tie, (double)x + 0.5, (double)y + 0.5, false, WRONG, TIE };
     for (int level = 4; level <= 64 && search.best > TIE; level *= 4) {
-        for (uint32_t i = scene->id_first[id]; i < scene->id_first[id + 1]; i++) {
-            try_shape(&search, &scene->shapes[scene->id_shapes[i]], level);
-        }
+        try_all(&search, id, level);
+    }
+    search.rims = true;
+    search.enough = RIM;
+    for (int level = 16; level <= 64 && search.best == WRONG; level *= 4) {
+        try_all(&search, id, level);
+    }
+    if (search.best == WRONG) {
+        try_strip(&search, id);
+    }
+    if (search.best == WRONG) {
+        try_cuts(&search, id);
     }
     return search.best;
 }
 
 /* ---- background ------------------------------------------------------------------------------- */
-static bool is_empty(const struct scene *scene, double x, double y)
+static bool is_empty(const struct scene *scene, double x, double y, bool rims)
 {
     uint32_t count;
     const uint32_t *items = scene_candidates(scene, x, y, &count);
     for (uint32_t i = 0; i < count; i++) {
-        if (shape_covers(scene, &scene->shapes[items[i]], x, y)) {
+        const struct shape *p = &scene->shapes[items[i]];
+        if ((rims ? shape_covers_surely : shape_covers)(scene, p, x, y)) {
             return false;
         }
     }
@@ -177,14 +316,14 @@ static bool is_empty(const struct scene *scene, double x, double y)
 
 /* Background somewhere in the square (or disc) of this reach about the point? */
 static bool find_empty(const struct scene *scene, double x, double y, double reach, bool disc,
-                       int level)
+                       bool rims, int level)
 {
     for (int i = -level; i <= level; i++) {
         for (int k = -level; k <= level; k++) {
             if (disc && i * i + k * k > level * level) {
                 continue;
             }
-            if (is_empty(scene, x + reach * i / level, y + reach * k / level)) {
+            if (is_empty(scene, x + reach * i / level, y + reach * k / level, rims)) {
                 return true;
             }
         }
@@ -196,19 +335,24 @@ static bool find_empty(const struct scene *scene, double x, double y, double rea
 static enum outcome judge_background(const struct scene *scene, int64_t x, int64_t y)
 {
     double cx = (double)x + 0.5, cy = (double)y + 0.5;
-    if (find_empty(scene, cx, cy, 1, false, 1) || find_empty(scene, cx, cy, 1, false, 16)) {
+    if (find_empty(scene, cx, cy, 1, false, false, 1) ||
+        find_empty(scene, cx, cy, 1, false, false, 16)) {
         return EDGE;
     }
     double z = scene->depth[(size_t)y * scene->camera->width + (size_t)x];
-    double reach = step_at(scene->camera, z);
-    return reach > 1 && find_empty(scene, cx, cy, reach, true, 24) ? NEAR_STEP : WRONG;
+    double reach = scene_step(scene->camera, z);
+    if (reach > 1 && find_empty(scene, cx, cy, reach, true, false, 24)) {
+        return NEAR_STEP;
+    }
+    return find_empty(scene, cx, cy, 1, false, true, 16) ? RIM : WRONG;
 }
 
 /* ---- the frame -------------------------------------------------------------------------------- */
 static void paint(uint8_t *rgb, enum outcome outcome, bool model, bool hole)
 {
-    static const uint8_t colours[6][3] = { { 90, 90, 90 }, { 60, 90, 160 }, { 150, 60, 150 },
-                                           { 60, 140, 60 }, { 150, 150, 40 }, { 255, 0, 0 } };
+    static const uint8_t colours[8][3] = { { 90, 90, 90 }, { 60, 90, 160 }, { 150, 60, 150 },
+                                           { 60, 140, 60 }, { 150, 150, 40 }, { 40, 150, 150 },
+                                           { 200, 120, 40 }, { 255, 0, 0 } };
     static const uint8_t hole_colour[3] = { 255, 255, 0 }, nothing[3] = { 0, 0, 0 };
     const uint8_t *c = colours[outcome];
     if (outcome == WRONG && hole) {
@@ -237,6 +381,12 @@ static void count_outcome(struct verdict *v, enum outcome outcome, bool hole,
         break;
     case SLANT:
         v->slant++;
+        break;
+    case RIM:
+        v->rim++;
+        break;
+    case STRIP:
+        v->strip++;
         break;
     case WRONG:
         if (v->wrong + v->holes < EXAMPLES) {

@@ -137,10 +137,11 @@ static void frame_name(char *name, size_t size, const char *pattern, size_t numb
 static void print_verdict(const char *name, const struct verdict *v)
 {
     printf("%s: %llu pixels model, %llu wrong, %llu holes; right by edge %llu, near step %llu, "
-           "tie %llu, slant %llu\n",
+           "tie %llu, slant %llu, rim %llu, strip %llu\n",
            name, (unsigned long long)v->model, (unsigned long long)v->wrong,
            (unsigned long long)v->holes, (unsigned long long)v->edge, (unsigned long long)v->near,
-           (unsigned long long)v->tie, (unsigned long long)v->slant);
+           (unsigned long long)v->tie, (unsigned long long)v->slant, (unsigned long long)v->rim,
+           (unsigned long long)v->strip);
 }
 
 static void print_examples(const struct verdict *v)
@@ -159,6 +160,8 @@ static void add_verdict(struct verdict *sum, const struct verdict *v)
     sum->near += v->near;
     sum->tie += v->tie;
     sum->slant += v->slant;
+    sum->rim += v->rim;
+    sum->strip += v->strip;
     sum->wrong += v->wrong;
     sum->holes += v->holes;
 }
@@ -219,6 +222,10 @@ int main(int argc, char **argv)
     model_free(&model);
     if (sum.model == 0) {
         stop(request.frames, "no view shows the model: nothing was judged");
+    }
+    if (sum.strip > 8 + sum.model / 20000) {
+        printf("more pixels than chance explains are right by a strip alone\n");
+        return 1;
     }
     return sum.wrong || sum.holes ? 1 : 0;
 }

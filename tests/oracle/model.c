@@ -71,18 +71,17 @@ static struct vec newell(const struct vec *points, const uint32_t *corners, uint
     return n;
 }
 
-/* The farthest corner from the plane with the Newell normal through the corners' middle. */
+/* The farthest corner from the plane with Newell's normal midway between the extremes. */
 static double unevenness(const struct vec *points, const uint32_t *corners, uint32_t count)
 {
     struct vec n = newell(points, corners, count);
-    double middle = 0, worst = 0;
+    double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < count; i++) {
-        middle += vec_dot(n, points[corners[i]]) / count;
+        double height = vec_dot(n, vec_sub(points[corners[i]], points[corners[0]]));
+        low = fmin(low, height);
+        high = fmax(high, height);
     }
-    for (uint32_t i = 0; i < count; i++) {
-        worst = fmax(worst, fabs(vec_dot(n, points[corners[i]]) - middle));
-    }
-    return worst;
+    return (high - low) / 2;
 }
 
 static void add_piece(struct model *m, const uint32_t *corners, uint32_t count, uint32_t id,
@@ -121,18 +120,38 @@ static bool is_ear(const struct vec *points, struct vec n, const uint32_t *ring,
     return true;
 }
 
+static bool is_convex(const struct vec *points, struct vec n, const uint32_t *ring, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (turn(points, n, ring[i], ring[(i + 1) % count], ring[(i + 2) % count]) < 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/*
+ * What the surface of a polygon that is not flat shall be, the file does not say.
+ * It is the compiler's: a fan from the first corner where the outline is convex,
+ * otherwise ears, from the second corner on. Where that leaves a choice (concave
+ * with more than four corners) the oracle's slack is the polygon's unevenness.
+ */
 static void add_triangles(struct model *m, const uint32_t *corners, uint32_t count, uint32_t id,
                           double slack)
 {
     uint32_t *ring = need(count, sizeof *ring);
     memcpy(ring, corners, count * sizeof *ring);
     struct vec n = newell(m->unsnapped, corners, count);
+    bool convex = is_convex(m->unsnapped, n, ring, count);
+    slack = convex || count == 4 ? 0 : slack;
     while (count > 3) {
-        uint32_t at = 0;
-        while (at < count && !is_ear(m->unsnapped, n, ring, count, at)) {
-            at++;
+        uint32_t at = 1;
+        for (uint32_t tries = 0; !convex && tries < count; tries++) {
+            if (is_ear(m->unsnapped, n, ring, count, (1 + tries) % count)) {
+                at = (1 + tries) % count;
+                break;
+            }
         }
-        at = at == count ? 1 : at;
         uint32_t ear[3] = { ring[(at + count - 1) % count], ring[at], ring[(at + 1) % count] };
         add_piece(m, ear, 3, id, slack);
         memmove(ring + at, ring + at + 1, (count - at - 1) * sizeof *ring);
@@ -147,7 +166,6 @@ void model_add_polygon(struct model *m, const uint32_t *corners, uint32_t count,
     if (count < 3) {
         return;
     }
-    /* Slack: the compiler may cut an uneven polygon along other diagonals than the oracle. */
     double before = unevenness(m->unsnapped, corners, count);
     double after = unevenness(m->points, corners, count);
     if (count > 3 && before > 1) {
@@ -157,12 +175,62 @@ void model_add_polygon(struct model *m, const uint32_t *corners, uint32_t count,
     }
 }
 
+/* ---- neighbours ------------------------------------------------------------------------------- */
+int compare_ends(const struct edge *a, const struct edge *b)
+{
+    for (int i = 0; i < 6; i++) {
+        int32_t u = a->ends[i / 3][i % 3], v = b->ends[i / 3][i % 3];
+        if (u != v) {
+            return u < v ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static int by_ends(const void *a, const void *b)
+{
+    return compare_ends(a, b);
+}
+
+static struct edge edge_from(const struct model *m, uint32_t polygon, uint32_t i)
+{
+    const struct polygon *p = &m->polygons[polygon];
+    struct edge e = { .corner = p->first + i, .polygon = polygon };
+    for (uint32_t end = 0; end < 2; end++) {
+        struct vec v = m->points[m->corners[p->first + (i + end) % p->count]];
+        e.ends[end][0] = (int32_t)v.x;
+        e.ends[end][1] = (int32_t)v.y;
+        e.ends[end][2] = (int32_t)v.z;
+    }
+    struct edge swapped = e;
+    memcpy(swapped.ends[0], e.ends[1], sizeof e.ends[0]);
+    memcpy(swapped.ends[1], e.ends[0], sizeof e.ends[0]);
+    return compare_ends(&e, &swapped) <= 0 ? e : swapped;
+}
+
+void model_join(struct model *m)
+{
+    m->edges = need(m->corner_count, sizeof *m->edges);
+    m->edge_of = need(m->corner_count, sizeof *m->edge_of);
+    for (uint32_t i = 0; i < m->polygon_count; i++) {
+        for (uint32_t k = 0; k < m->polygons[i].count; k++) {
+            m->edges[m->polygons[i].first + k] = edge_from(m, i, k);
+        }
+    }
+    qsort(m->edges, m->corner_count, sizeof *m->edges, by_ends);
+    for (uint32_t i = 0; i < m->corner_count; i++) {
+        m->edge_of[m->edges[i].corner] = i;
+    }
+}
+
 void model_free(struct model *m)
 {
     free(m->points);
     free(m->unsnapped);
     free(m->corners);
     free(m->polygons);
+    free(m->edges);
+    free(m->edge_of);
 }
 
 /* ---- files ------------------------------------------------------------------------------------ */
@@ -318,4 +386,5 @@ void model_read(struct model *m, const char *path, const struct lattice *lattice
     if (m->polygon_count == 0) {
         stop(path, "no polygons");
     }
+    model_join(m);
 }

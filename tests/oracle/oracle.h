@@ -30,11 +30,20 @@ struct polygon {
     double slack; /* farthest corner from the polygon's plane, lattice steps */
 };
 
+/* An edge, from each polygon that has it: places in corners of where it begins. */
+struct edge {
+    int32_t ends[2][3]; /* lattice points, the lesser first */
+    uint32_t corner;
+    uint32_t polygon;
+};
+
 struct model {
     struct vec *points; /* lattice points */
     struct vec *unsnapped; /* the same in lattice units before rounding */
     uint32_t *corners; /* numbers of points */
     struct polygon *polygons;
+    struct edge *edges;  /* sorted by ends: those of neighbours lie together */
+    uint32_t *edge_of;   /* a corner's place in edges */
     size_t point_count;
     size_t corner_count;
     size_t polygon_count;
@@ -63,15 +72,23 @@ struct shape {
     double z_min, z_max;
     double x_min, x_max, y_min, y_max;
     bool facing; /* shown: by its side, or because rounding to 1/16 pixel could turn it round */
+    bool thin;   /* so thin that rounding could turn it round */
+    uint32_t polygon;
 };
 
+/* A corner of an outline, and the edge from it to the next. */
 struct spot {
     double x, y;
+    uint32_t corner; /* of the model, where the edge comes from; CUT: the near plane cut it */
+    bool rim;        /* no other polygon that is drawn has this edge */
 };
+
+#define CUT UINT32_MAX
 
 /* All polygons of one view, with bins of 4 x 4 pixels. */
 struct scene {
     const struct camera *camera;
+    const struct model *model;
     bool two_sided;
     struct shape *shapes;
     size_t shape_count;
@@ -104,6 +121,8 @@ struct verdict {
     uint64_t near;   /* right only by the projected lattice step */
     uint64_t tie;    /* right by depth within the bound, along the view */
     uint64_t slant;  /* right by depth within the bound, along a polygon's normal alone */
+    uint64_t rim;    /* right by the rounding of outlines that end there */
+    uint64_t strip;  /* right by lying on a plane with what is due, seen edge-on */
     uint64_t wrong;
     uint64_t holes;
     struct example examples[EXAMPLES]; /* the first ones, wrong + holes of them */
@@ -114,6 +133,10 @@ void lattice_read(struct lattice *lattice, const char *tree);
 void model_read(struct model *model, const char *path, const struct lattice *lattice);
 /* Fills polygons from outlines already in points, unsnapped and corners; frees nothing. */
 void model_add_polygon(struct model *model, const uint32_t *corners, uint32_t count, uint32_t id);
+/* Finds out who shares edges with whom; after the last polygon. */
+void model_join(struct model *model);
+/* 0 if two edges have the same ends. */
+int compare_ends(const struct edge *a, const struct edge *b);
 void model_free(struct model *model);
 
 /* view.c */
@@ -126,6 +149,12 @@ void scene_make(struct scene *scene, const struct model *model, const struct cam
 void scene_free(struct scene *scene);
 int shape_winding(const struct scene *scene, const struct shape *shape, double x, double y);
 bool shape_covers(const struct scene *scene, const struct shape *shape, double x, double y);
+/* The same, and no rim is within 1/8 pixel or, if that is more than a pixel, a lattice step. */
+bool shape_covers_surely(const struct scene *scene, const struct shape *shape, double x, double y);
+/* The ray through a screen point: o + t * (0, 0, 1) in parallel projection, else t * (x, y, 1). */
+struct vec scene_ray(const struct camera *camera, double x, double y);
+/* Pixels that a lattice step covers at this depth. */
+double scene_step(const struct camera *camera, double z);
 /* Depth along forward at a screen point, kept within the shape's own depths. */
 double shape_depth(const struct scene *scene, const struct shape *shape, double x, double y);
 /* Cosine-like share of a depth difference that lies along the shape's normal, 0 .. about 1. */

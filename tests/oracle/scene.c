@@ -20,17 +20,25 @@ static struct vec to_camera(const struct camera *c, struct vec p)
     return (struct vec){ vec_dot(c->axis[0], d), vec_dot(c->axis[1], d), vec_dot(c->axis[2], d) };
 }
 
-static uint32_t clip_near(const struct vec *in, uint32_t count, double near_z, struct vec *out)
+/* A corner in camera axes, and the model's corner where its edge begins. */
+struct kept {
+    struct vec at;
+    uint32_t corner;
+};
+
+static uint32_t clip_near(const struct vec *in, uint32_t count, uint32_t first_corner,
+                          double near_z, struct kept *out)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
         struct vec a = in[i], b = in[(i + 1) % count];
         if (a.z >= near_z) {
-            out[n++] = a;
+            out[n++] = (struct kept){ a, first_corner + i };
         }
         if ((a.z >= near_z) != (b.z >= near_z)) {
             double t = (near_z - a.z) / (b.z - a.z);
-            out[n++] = (struct vec){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), near_z };
+            out[n].at = (struct vec){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), near_z };
+            out[n++].corner = a.z >= near_z ? CUT : first_corner + i;
         }
     }
     return n;
@@ -58,10 +66,11 @@ static bool set_plane(struct shape *s, const struct vec *p, uint32_t count)
     return true;
 }
 
-static struct spot project(const struct camera *c, struct vec p)
+static struct spot project(const struct camera *c, struct kept k)
 {
-    double f = c->parallel ? c->focal : c->focal / p.z;
-    return (struct spot){ c->width / 2.0 + p.x * f, c->height / 2.0 - p.y * f };
+    double f = c->parallel ? c->focal : c->focal / k.at.z;
+    return (struct spot){ c->width / 2.0 + k.at.x * f, c->height / 2.0 - k.at.y * f, k.corner,
+                          true };
 }
 
 static void set_bounds(struct shape *s, const struct spot *spots, bool two_sided)
@@ -79,37 +88,63 @@ static void set_bounds(struct shape *s, const struct spot *spots, bool two_sided
         perimeter += hypot(b.x - a.x, b.y - a.y);
     }
     /* Each corner moves by up to 1/32 pixel across and down: width by less than 1/8. */
-    bool thin = fabs(area) / 2 <= perimeter / 2 / 8;
-    s->facing = two_sided || thin || area < 0; /* y runs down: counter-clockwise is negative */
+    s->thin = fabs(area) / 2 <= perimeter / 2 / 8;
+    s->facing = two_sided || s->thin || area < 0; /* y runs down: counter-clockwise is negative */
 }
 
-static void add_shape(struct scene *scene, const struct model *m, const struct polygon *p,
-                      struct vec *work)
+static void add_shape(struct scene *scene, uint32_t number, struct vec *work, struct kept *kept)
 {
     const struct camera *c = scene->camera;
-    struct vec *kept = work + p->count;
+    const struct model *m = scene->model;
+    const struct polygon *p = &m->polygons[number];
     for (uint32_t i = 0; i < p->count; i++) {
         work[i] = to_camera(c, m->points[m->corners[p->first + i]]);
     }
-    struct shape s = { .id = p->id, .slack = p->slack, .z_min = INFINITY, .z_max = -INFINITY };
+    struct shape s = { .id = p->id, .slack = p->slack, .polygon = number, .z_min = INFINITY,
+                       .z_max = -INFINITY };
     if (!set_plane(&s, work, p->count)) {
         return;
     }
-    s.count = clip_near(work, p->count, c->near_z, kept);
+    s.count = clip_near(work, p->count, p->first, c->near_z, kept);
     if (s.count < 3) {
         return;
     }
     s.first = (uint32_t)scene->spot_count;
     scene->spots = more(scene->spots, scene->spot_count + s.count, sizeof *scene->spots);
     for (uint32_t i = 0; i < s.count; i++) {
-        s.z_min = fmin(s.z_min, kept[i].z);
-        s.z_max = fmax(s.z_max, kept[i].z);
+        s.z_min = fmin(s.z_min, kept[i].at.z);
+        s.z_max = fmax(s.z_max, kept[i].at.z);
         scene->spots[s.first + i] = project(c, kept[i]);
     }
     set_bounds(&s, scene->spots + s.first, scene->two_sided);
     scene->spot_count += s.count;
     scene->shapes = more(scene->shapes, scene->shape_count + 1, sizeof *scene->shapes);
     scene->shapes[scene->shape_count++] = s;
+}
+
+/* Marks the edges that some other drawn polygon has too: rounding moves both alike. */
+static void find_rims(struct scene *scene)
+{
+    const struct model *m = scene->model;
+    bool *drawn = need(m->polygon_count, sizeof *drawn);
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        drawn[scene->shapes[i].polygon] = scene->shapes[i].facing && !scene->shapes[i].thin;
+    }
+    for (size_t i = 0; i < scene->spot_count; i++) {
+        struct spot *spot = &scene->spots[i];
+        if (spot->corner == CUT) {
+            continue;
+        }
+        uint32_t at = m->edge_of[spot->corner], low = at;
+        while (low > 0 && compare_ends(&m->edges[low - 1], &m->edges[at]) == 0) {
+            low--;
+        }
+        for (; low < m->corner_count && compare_ends(&m->edges[low], &m->edges[at]) == 0; low++) {
+            spot->rim = spot->rim && (m->edges[low].polygon == m->edges[at].polygon ||
+                                      !drawn[m->edges[low].polygon]);
+        }
+    }
+    free(drawn);
 }
 
 int shape_winding(const struct scene *scene, const struct shape *s, double x, double y)
@@ -137,14 +172,43 @@ bool shape_covers(const struct scene *scene, const struct shape *s, double x, do
     return scene->two_sided ? winding != 0 : winding > 0;
 }
 
-static struct vec ray(const struct camera *c, double x, double y)
+double scene_step(const struct camera *c, double z)
+{
+    return c->parallel ? c->focal : c->focal / fmax(z, c->near_z);
+}
+
+static double distance_to(struct spot a, struct spot b, double x, double y)
+{
+    double wx = b.x - a.x, wy = b.y - a.y, square = wx * wx + wy * wy;
+    double t = square > 0 ? ((x - a.x) * wx + (y - a.y) * wy) / square : 0;
+    t = fmin(1, fmax(0, t));
+    return hypot(a.x + t * wx - x, a.y + t * wy - y);
+}
+
+bool shape_covers_surely(const struct scene *scene, const struct shape *s, double x, double y)
+{
+    if (!shape_covers(scene, s, x, y)) {
+        return false;
+    }
+    const struct spot *p = scene->spots + s->first;
+    double step = scene_step(scene->camera, shape_depth(scene, s, x, y));
+    double bound = step > 1 ? step : 1.0 / 8;
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (p[i].rim && distance_to(p[i], p[(i + 1) % s->count], x, y) <= bound) {
+            return false;
+        }
+    }
+    return true;
+}
+
+struct vec scene_ray(const struct camera *c, double x, double y)
 {
     return (struct vec){ (x - c->width / 2.0) / c->focal, (c->height / 2.0 - y) / c->focal, 1 };
 }
 
 double shape_depth(const struct scene *scene, const struct shape *s, double x, double y)
 {
-    struct vec r = ray(scene->camera, x, y);
+    struct vec r = scene_ray(scene->camera, x, y);
     double base = s->offset, along = s->normal.z;
     if (scene->camera->parallel) {
         base += s->normal.x * r.x + s->normal.y * r.y;
@@ -160,7 +224,7 @@ double shape_slope(const struct scene *scene, const struct shape *s, double x, d
     if (scene->camera->parallel) {
         return fabs(s->normal.z);
     }
-    return fabs(vec_dot(s->normal, ray(scene->camera, x, y)));
+    return fabs(vec_dot(s->normal, scene_ray(scene->camera, x, y)));
 }
 
 /* ---- bins and the index by source polygon ----------------------------------------------------- */
@@ -318,17 +382,21 @@ void scene_make(struct scene *scene, const struct model *model, const struct cam
 {
     memset(scene, 0, sizeof *scene);
     scene->camera = camera;
+    scene->model = model;
     scene->two_sided = two_sided;
     scene->id_count = model->source_count;
     uint32_t most = 0;
     for (size_t i = 0; i < model->polygon_count; i++) {
         most = model->polygons[i].count > most ? model->polygons[i].count : most;
     }
-    struct vec *work = need((size_t)most * 3 + 3, sizeof *work);
-    for (size_t i = 0; i < model->polygon_count; i++) {
-        add_shape(scene, model, &model->polygons[i], work);
+    struct vec *work = need(most, sizeof *work);
+    struct kept *kept = need((size_t)most * 2, sizeof *kept);
+    for (uint32_t i = 0; i < model->polygon_count; i++) {
+        add_shape(scene, i, work, kept);
     }
     free(work);
+    free(kept);
+    find_rims(scene);
     make_bins(scene);
     index_ids(scene);
     size_t pixels = (size_t)camera->width * camera->height;

@@ -62,6 +62,7 @@ static void make_model(struct model *m)
     add_outline(m, upper, 3);
     add_outline(m, back, 3);
     add_outline(m, slant, 4);
+    model_join(m);
 }
 
 static struct camera make_camera(double x, double y, double z, double turned)
@@ -134,8 +135,9 @@ static void single_pixels(const struct scene *scene, uint32_t *frame)
 static void hidden_shown(const struct model *m, const struct camera *camera, uint32_t *frame)
 {
     struct model behind = *m;
-    behind.polygons++;
-    behind.polygon_count--;
+    behind.polygons = m->polygons + 1;
+    behind.polygon_count = m->polygon_count - 1;
+    model_join(&behind);
     struct scene whole, part;
     scene_make(&whole, m, camera, false);
     scene_make(&part, &behind, camera, false);
@@ -144,6 +146,8 @@ static void hidden_shown(const struct model *m, const struct camera *camera, uin
     expect("a hidden polygon shown is wrong all over", v.wrong > 1000);
     scene_free(&whole);
     scene_free(&part);
+    free(behind.edges);
+    free(behind.edge_of);
 }
 
 int self_test(void)

@@ -17,10 +17,11 @@ enum { CANARY = 0x5C };
 
 uint8_t *scene_cube(uint32_t *size)
 {
-    static const uint32_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    static const uint32_t colours[6] = {0xE04040, 0x40E040, 0x4040E0,
-                                        0xE0E040, 0xE040E0, 0x40E0E0};
+    static const uint32_t sides[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },
+                                          { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+    static const uint32_t colours[6] = {
+        0xE04040, 0x40E040, 0x4040E0, 0xE0E040, 0xE040E0, 0x40E0E0
+    };
     struct builder *b = builder_new(OW_TREE_IDS | OW_TREE_CLOSED);
     uint32_t root = builder_sequence(b);
     for (int i = 0; i < 8; i++) {
@@ -47,15 +48,15 @@ void scene_open(struct scene *scene, const struct sim_panel_config *panel)
     scene->blob = scene_cube(&scene->blob_bytes);
     assert_int_equal(ow_tree_open(&scene->tree, scene->blob, scene->blob_bytes), OW_OK);
     assert_true(sim_panel_open(&scene->panel, &whole));
-    scene->clock = (struct ow_clock){&sim_virtual_clock_ops, &scene->time};
+    scene->clock = (struct ow_clock){ &sim_virtual_clock_ops, &scene->time };
     scene->config = (struct ow_viewer_config){
         .tree = &scene->tree,
-        .look = {.order = OW_FRONT_TO_BACK,
-                 .shade = OW_SHADE_FLAT,
-                 .ambient_q8 = 100,
-                 .background = 0x203040,
-                 .light = {.direction_q14 = {-6000, 9000, 12288}, .intensity_q8 = 156}},
-        .camera = {.projection = OW_PERSPECTIVE, .fov = UINT32_C(1) << 29},
+        .look = { .order = OW_FRONT_TO_BACK,
+                  .shade = OW_SHADE_FLAT,
+                  .ambient_q8 = 100,
+                  .background = 0x203040,
+                  .light = { .direction_q14 = { -6000, 9000, 12288 }, .intensity_q8 = 156 } },
+        .camera = { .projection = OW_PERSPECTIVE, .fov = UINT32_C(1) << 29 },
         .views = 1,
         .elevation = UINT32_C(1) << 28,
         .panel = &scene->panel.panel,

@@ -71,7 +71,10 @@ static void scan(struct canvas *canvas, const struct ow_outline_point *points, u
     assert_non_null(edges);
     canvas->sink = (struct ow_span_sink){ spans, 0, capacity, take };
     canvas->line = -1;
-    ow_scan(points, count, rule, &canvas->window, edges, &canvas->sink);
+    struct ow_box box;
+    if (ow_outline_box(points, count, &canvas->window, &box)) {
+        ow_scan(points, count, rule, &box, edges, &canvas->sink);
+    }
     assert_int_equal(canvas->sink.count, 0);
     free(edges);
     free(spans);

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include <gif_lib.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,10 +22,9 @@ static uint32_t noise(uint32_t x, uint32_t y, uint32_t seed)
     return h * 2654435761u >> 8;
 }
 
-static void make(struct image *image, uint32_t width, uint32_t height, uint32_t seed,
-                 uint32_t mask)
+static void make(struct image *image, uint32_t width, uint32_t height, uint32_t seed, uint32_t mask)
 {
-    struct image_error error;
+    struct image_error error = { "" };
     assert_true(image_make(image, width, height, &error));
     for (uint32_t y = 0; y < height; y++) {
         for (uint32_t x = 0; x < width; x++) {
@@ -39,7 +39,7 @@ static void pictures_come_back_as_they_were_written(void **state)
     for (uint32_t i = 0; image_format_at(i) != NULL; i++) {
         struct image written;
         struct image read;
-        struct image_error error;
+        struct image_error error = { "" };
         FILE *file = tmpfile();
         make(&written, 37, 19, 1, 0xFFFFFF);
         assert_true(image_format_at(i)->write(file, &written, &error));
@@ -65,13 +65,17 @@ static FILE *file_of(const void *bytes, size_t count)
 
 static void broken_files_are_refused(void **state)
 {
-    static const char *const ppms[] = {"",           "P5\n1 1\n255\nx",      "P6\n0 1\n255\n",
-                                       "P6\n1 1\n65535\nxxxxxx", "P6\n2 1\n255\nxxxxx",
-                                       "P6\n99999999999 1\n255\n", "P6\nx 1\n255\nxxx",
-                                       "P6\n1 1\n255"};
+    static const char *const ppms[] = { "",
+                                        "P5\n1 1\n255\nx",
+                                        "P6\n0 1\n255\n",
+                                        "P6\n1 1\n65535\nxxxxxx",
+                                        "P6\n2 1\n255\nxxxxx",
+                                        "P6\n99999999999 1\n255\n",
+                                        "P6\nx 1\n255\nxxx",
+                                        "P6\n1 1\n255" };
     (void)state;
     struct image image;
-    struct image_error error;
+    struct image_error error = { "" };
     for (size_t i = 0; i < sizeof ppms / sizeof ppms[0]; i++) {
         FILE *file = file_of(ppms[i], strlen(ppms[i]));
         assert_false(image_ppm.read(file, &image, &error));
@@ -102,7 +106,7 @@ static void a_ppm_may_have_comments(void **state)
 {
     static const char text[] = "P6 # by hand\n2 # wide\n# and\n1\n255\nabcdef";
     struct image image;
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     FILE *file = file_of(text, strlen(text));
     assert_true(image_ppm.read(file, &image, &error));
@@ -115,7 +119,7 @@ static void few_colours_are_kept_exactly(void **state)
 {
     struct image frames[2];
     struct palette palette;
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     make(&frames[0], 40, 30, 1, 0xC0C0C0); /* 64 colours */
     make(&frames[1], 40, 30, 2, 0xE00000); /* 8 more, 4 of them known */
@@ -138,7 +142,7 @@ static void many_colours_become_at_most_255_near_ones(void **state)
 {
     struct image frame;
     struct palette palette;
-    struct image_error error;
+    struct image_error error = { "" };
     uint64_t squares = 0;
     (void)state;
     make(&frame, 200, 150, 5, 0xFFFFFF);
@@ -162,7 +166,7 @@ static void many_colours_become_at_most_255_near_ones(void **state)
 
 static size_t gif_bytes(char *bytes, size_t room, const struct image *frames, uint32_t count)
 {
-    struct image_error error;
+    struct image_error error = { "" };
     FILE *file = tmpfile();
     assert_true(image_write_gif(file, frames, count, 5, &error));
     rewind(file);
@@ -171,12 +175,74 @@ static size_t gif_bytes(char *bytes, size_t room, const struct image *frames, ui
     return size;
 }
 
+static int take_bytes(GifFileType *gif, GifByteType *bytes, int count)
+{
+    return (int)fread(bytes, 1, (size_t)count, gif->UserData);
+}
+
+/* Lays one frame of a GIF over the picture so far. */
+static void lay_over(struct image *canvas, GifFileType *gif, int number)
+{
+    GraphicsControlBlock control;
+    const SavedImage *saved = &gif->SavedImages[number];
+    const GifImageDesc *place = &saved->ImageDesc;
+    assert_int_equal(DGifSavedExtensionToGCB(gif, number, &control), GIF_OK);
+    assert_int_equal(control.DelayTime, 5);
+    for (int y = 0; y < place->Height; y++) {
+        for (int x = 0; x < place->Width; x++) {
+            int index = saved->RasterBits[y * place->Width + x];
+            if (index != control.TransparentColor) {
+                GifColorType c = gif->SColorMap->Colors[index];
+                image_set_pixel(canvas, (uint32_t)(place->Left + x), (uint32_t)(place->Top + y),
+                                (uint32_t)c.Red << 16 | (uint32_t)c.Green << 8 | c.Blue);
+            }
+        }
+    }
+}
+
+static void a_gif_shows_its_frames(void **state)
+{
+    struct image frames[4];
+    struct image canvas;
+    struct image_error error = { "" };
+    int code = 0;
+    (void)state;
+    if (!image_has_gif()) {
+        skip();
+    }
+    for (uint32_t i = 0; i < 4; i++) { /* 64 colours, and a corner that stays */
+        make(&frames[i], 50, 40, i, 0xC0C0C0);
+        for (uint32_t y = 20; y < 40; y++) {
+            for (uint32_t x = 0; x < 30; x++) {
+                image_set_pixel(&frames[i], x, y, 0x408000);
+            }
+        }
+    }
+    FILE *file = tmpfile();
+    assert_true(image_write_gif(file, frames, 4, 5, &error));
+    rewind(file);
+    GifFileType *gif = DGifOpen(file, take_bytes, &code);
+    assert_non_null(gif);
+    assert_int_equal(DGifSlurp(gif), GIF_OK);
+    assert_int_equal(gif->ImageCount, 4);
+    assert_int_equal(gif->SWidth, 50);
+    assert_true(image_make(&canvas, 50, 40, &error));
+    for (int i = 0; i < 4; i++) {
+        lay_over(&canvas, gif, i);
+        assert_int_equal(image_count_differences(&canvas, &frames[i]), 0);
+        image_free(&frames[i]);
+    }
+    image_free(&canvas);
+    DGifCloseFile(gif, &code);
+    fclose(file);
+}
+
 static void a_gif_is_the_same_each_time(void **state)
 {
     static char first[1 << 17];
     static char second[1 << 17];
     struct image frames[3];
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     if (!image_has_gif()) {
         skip();
@@ -203,7 +269,7 @@ static void a_sheet_has_each_frame_in_its_place(void **state)
 {
     struct image frames[5];
     struct image sheet;
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     for (uint32_t i = 0; i < 5; i++) {
         make(&frames[i], 10, 6, i, 0xFFFFFF);
@@ -233,7 +299,7 @@ static void a_wide_sheet_is_reduced_by_means(void **state)
 {
     struct image frames[4];
     struct image sheet;
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     for (uint32_t i = 0; i < 4; i++) {
         make(&frames[i], 1000, 3, i, 0);
@@ -255,7 +321,7 @@ static void differences_are_counted_and_shown(void **state)
     struct image a;
     struct image b;
     struct image picture;
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     make(&a, 12, 9, 1, 0xFFFFFF);
     assert_true(image_copy(&b, &a, &error));
@@ -285,7 +351,7 @@ static void differences_are_counted_and_shown(void **state)
 
 static void names_choose_the_format(void **state)
 {
-    struct image_error error;
+    struct image_error error = { "" };
     (void)state;
     assert_string_equal(image_format_of("a.b/c.ppm", &error)->name, "PPM");
     assert_null(image_format_of("a.ppm/c", &error));
@@ -305,15 +371,19 @@ static void a_pattern_numbers_the_frames(void **state)
         uint32_t frame;
         const char *name;
     } cases[] = {
-        {"out-%04d.ppm", 7, "out-0007.ppm"},  {"out-%04d.ppm", 12345, "out-12345.ppm"},
-        {"%d", 0, "0"},                       {"a%db", 42, "a42b"},
-        {"%%%03d%%.ppm", 5, "%005%.ppm"},     {"plain.ppm", 9, "plain.ppm"},
-        {"%09d", 1, "000000001"},             {"%%d.ppm", 3, "%d.ppm"},
+        { "out-%04d.ppm", 7, "out-0007.ppm" },
+        { "out-%04d.ppm", 12345, "out-12345.ppm" },
+        { "%d", 0, "0" },
+        { "a%db", 42, "a42b" },
+        { "%%%03d%%.ppm", 5, "%005%.ppm" },
+        { "plain.ppm", 9, "plain.ppm" },
+        { "%09d", 1, "000000001" },
+        { "%%d.ppm", 3, "%d.ppm" },
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct pattern pattern;
-        struct image_error error;
+        struct image_error error = { "" };
         char name[64];
         assert_true(pattern_read(&pattern, cases[i].pattern, &error));
         assert_true(pattern_name(&pattern, cases[i].frame, name, sizeof name));
@@ -324,20 +394,20 @@ static void a_pattern_numbers_the_frames(void **state)
 
 static void a_pattern_that_is_no_number_is_refused(void **state)
 {
-    static const char *const cases[] = {"%s",    "%n",   "%",     "a%",    "%x.ppm", "%5d",
-                                        "%-4d",  "%00d", "%010d", "%0d",   "%ld",    "%d%d",
-                                        "%d-%s", "%0",   "%04",   "%1$d",  "% d",    "%+d"};
+    static const char *const cases[] = { "%s",    "%n",   "%",     "a%",   "%x.ppm", "%5d",
+                                         "%-4d",  "%00d", "%010d", "%0d",  "%ld",    "%d%d",
+                                         "%d-%s", "%0",   "%04",   "%1$d", "% d",    "%+d" };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct pattern pattern;
-        struct image_error error;
+        struct image_error error = { "" };
         if (pattern_read(&pattern, cases[i], &error)) {
             fail_msg("'%s' is taken", cases[i]);
         }
     }
     char *longest = malloc(PATTERN_BYTES + 1);
     struct pattern pattern;
-    struct image_error error;
+    struct image_error error = { "" };
     memset(longest, 'a', PATTERN_BYTES);
     longest[PATTERN_BYTES] = '\0';
     assert_false(pattern_read(&pattern, longest, &error));
@@ -354,6 +424,7 @@ int main(void)
         cmocka_unit_test(a_ppm_may_have_comments),
         cmocka_unit_test(few_colours_are_kept_exactly),
         cmocka_unit_test(many_colours_become_at_most_255_near_ones),
+        cmocka_unit_test(a_gif_shows_its_frames),
         cmocka_unit_test(a_gif_is_the_same_each_time),
         cmocka_unit_test(a_sheet_has_each_frame_in_its_place),
         cmocka_unit_test(a_wide_sheet_is_reduced_by_means),

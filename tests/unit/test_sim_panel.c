@@ -31,9 +31,9 @@ static void a_written_rectangle_is_seen_where_it_belongs(void **state)
 {
     struct sim_panel panel;
     uint32_t pixels[2 * 4]; /* two lines of 16 bytes, three pixels used */
-    struct ow_panel_rect rect = {2, 1, 3, 2};
+    struct ow_panel_rect rect = { 2, 1, 3, 2 };
     (void)state;
-    open_panel(&panel, (struct sim_panel_config){.kind = SIM_PANEL_TAKES});
+    open_panel(&panel, (struct sim_panel_config){ .kind = SIM_PANEL_TAKES });
     const struct ow_panel_ops *ops = panel.panel.ops;
     for (uint32_t y = 0; y < 2; y++) {
         for (uint32_t x = 0; x < 8; x++) {
@@ -60,9 +60,9 @@ static void only_changed_rectangles_are_shown(void **state)
 {
     struct sim_panel panel;
     struct ow_panel_buffer buffer;
-    const struct ow_panel_rect rects[] = {{0, 0, 2, 2}, {7, 3, 1, 1}};
+    const struct ow_panel_rect rects[] = { { 0, 0, 2, 2 }, { 7, 3, 1, 1 } };
     (void)state;
-    open_panel(&panel, (struct sim_panel_config){.kind = SIM_PANEL_LENDS});
+    open_panel(&panel, (struct sim_panel_config){ .kind = SIM_PANEL_LENDS });
     assert_int_equal(panel.panel.ops->lend(&panel, &buffer), OW_OK);
     for (uint32_t y = 0; y < HEIGHT; y++) {
         panel.config.format->fill(buffer.pixels + y * buffer.stride, 0, WIDTH, 7);
@@ -79,12 +79,12 @@ static void only_changed_rectangles_are_shown(void **state)
 static void buffers_say_how_old_their_content_is(void **state)
 {
     (void)state;
-    for (uint16_t buffers = 1; buffers <= SIM_PANEL_BUFFERS; buffers++) {
+    for (uint32_t buffers = 1; buffers <= SIM_PANEL_BUFFERS; buffers++) {
         struct sim_panel panel;
         struct ow_panel_buffer buffer;
-        const struct ow_panel_rect whole = {0, 0, WIDTH, HEIGHT};
-        open_panel(&panel,
-                   (struct sim_panel_config){.kind = SIM_PANEL_LENDS, .buffers = buffers});
+        const struct ow_panel_rect whole = { 0, 0, WIDTH, HEIGHT };
+        open_panel(&panel, (struct sim_panel_config){ .kind = SIM_PANEL_LENDS,
+                                                      .buffers = (uint16_t)buffers });
         for (uint32_t frame = 0; frame < 7; frame++) {
             assert_int_equal(panel.panel.ops->lend(&panel, &buffer), OW_OK);
             assert_int_equal(buffer.age, frame < buffers ? 0 : buffers);
@@ -106,10 +106,10 @@ static void buffers_say_how_old_their_content_is(void **state)
 static void a_slow_write_reads_the_pixels_late(void **state)
 {
     struct sim_panel panel;
-    uint32_t pixels[WIDTH * HEIGHT / 2] = {0};
-    const struct ow_panel_rect whole = {0, 0, WIDTH, HEIGHT};
+    uint32_t pixels[WIDTH * HEIGHT / 2] = { 0 };
+    const struct ow_panel_rect whole = { 0, 0, WIDTH, HEIGHT };
     (void)state;
-    open_panel(&panel, (struct sim_panel_config){.kind = SIM_PANEL_TAKES, .delay = 2});
+    open_panel(&panel, (struct sim_panel_config){ .kind = SIM_PANEL_TAKES, .delay = 2 });
     assert_int_equal(panel.panel.ops->write(&panel, &whole, pixels, 16, true), OW_OK);
     memset(pixels, 0xFF, sizeof pixels); /* what a careless user does */
     assert_int_equal(panel.panel.ops->done(&panel, 1), OW_OK);
@@ -124,22 +124,22 @@ static void a_slow_write_reads_the_pixels_late(void **state)
 static void misuse_is_noticed(void **state)
 {
     static const struct ow_panel_rect bad[] = {
-        {0, 0, 0, 1}, {0, 0, 1, 0}, {0, 0, WIDTH + 1, 1}, {7, 0, 2, 1}, {0, 4, 1, 1},
-        {1, 0, 2, 2}, {0, 0, 3, 2}, {0, 1, 2, 1},
+        { 0, 0, 0, 1 }, { 0, 0, 1, 0 }, { 0, 0, WIDTH + 1, 1 }, { 7, 0, 2, 1 },
+        { 0, 4, 1, 1 }, { 1, 0, 2, 2 }, { 0, 0, 3, 2 },         { 0, 1, 2, 1 },
     };
     struct sim_panel panel;
     struct ow_panel_buffer buffer;
-    uint32_t pixels[WIDTH * HEIGHT] = {0};
+    uint32_t pixels[WIDTH * HEIGHT] = { 0 };
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        open_panel(&panel, (struct sim_panel_config){
-                               .kind = SIM_PANEL_BOTH, .align_x = 2, .align_y = 2});
+        open_panel(&panel,
+                   (struct sim_panel_config){ .kind = SIM_PANEL_BOTH, .align_x = 2, .align_y = 2 });
         assert_int_equal(panel.panel.ops->write(&panel, &bad[i], pixels, 16, true), OW_ARGUMENT);
         assert_non_null(panel.wrong);
         sim_panel_close(&panel);
     }
-    const struct ow_panel_rect whole = {0, 0, WIDTH, HEIGHT};
-    open_panel(&panel, (struct sim_panel_config){.kind = SIM_PANEL_BOTH});
+    const struct ow_panel_rect whole = { 0, 0, WIDTH, HEIGHT };
+    open_panel(&panel, (struct sim_panel_config){ .kind = SIM_PANEL_BOTH });
     const struct ow_panel_ops *ops = panel.panel.ops;
     assert_int_equal(ops->show(&panel, &whole, 1), OW_ARGUMENT);
     assert_int_equal(ops->lend(&panel, &buffer), OW_OK);
@@ -153,10 +153,10 @@ static void the_checksum_is_of_packed_rows_without_spare_bits(void **state)
 {
     struct sim_panel panel;
     uint8_t pixels[WIDTH * HEIGHT * 4];
-    const struct ow_panel_rect whole = {0, 0, WIDTH, HEIGHT};
+    const struct ow_panel_rect whole = { 0, 0, WIDTH, HEIGHT };
     (void)state;
-    open_panel(&panel, (struct sim_panel_config){.kind = SIM_PANEL_TAKES,
-                                                 .format = &ow_format_xrgb8888});
+    open_panel(&panel,
+               (struct sim_panel_config){ .kind = SIM_PANEL_TAKES, .format = &ow_format_xrgb8888 });
     for (size_t i = 0; i < sizeof pixels; i++) {
         pixels[i] = (uint8_t)(i * 37);
     }
@@ -176,9 +176,9 @@ static void the_picture_has_the_formats_colours(void **state)
     struct image image;
     struct image_error error;
     struct ow_panel_buffer buffer;
-    const struct ow_panel_rect whole = {0, 0, WIDTH, HEIGHT};
+    const struct ow_panel_rect whole = { 0, 0, WIDTH, HEIGHT };
     (void)state;
-    open_panel(&panel, (struct sim_panel_config){.kind = SIM_PANEL_LENDS});
+    open_panel(&panel, (struct sim_panel_config){ .kind = SIM_PANEL_LENDS });
     const struct ow_pixel_format *format = panel.config.format;
     assert_int_equal(panel.panel.ops->lend(&panel, &buffer), OW_OK);
     for (uint32_t y = 0; y < HEIGHT; y++) {
@@ -208,10 +208,10 @@ static void the_frame_callback_is_asked_once_a_frame(void **state)
     struct sim_panel panel;
     struct ow_panel_buffer buffer;
     int calls = 0;
-    const struct ow_panel_rect whole = {0, 0, WIDTH, HEIGHT};
+    const struct ow_panel_rect whole = { 0, 0, WIDTH, HEIGHT };
     (void)state;
     open_panel(&panel, (struct sim_panel_config){
-                           .kind = SIM_PANEL_LENDS, .frame = refuse_frame, .context = &calls});
+                           .kind = SIM_PANEL_LENDS, .frame = refuse_frame, .context = &calls });
     assert_int_equal(panel.panel.ops->lend(&panel, &buffer), OW_OK);
     assert_int_equal(panel.panel.ops->show(&panel, &whole, 1), OW_FULL);
     assert_int_equal(calls, 1);
@@ -222,7 +222,7 @@ static void sizes_out_of_range_are_refused(void **state)
 {
     struct sim_panel panel;
     (void)state;
-    struct sim_panel_config config = {.format = &ow_format_rgb565, .height = 1};
+    struct sim_panel_config config = { .format = &ow_format_rgb565, .height = 1 };
     assert_false(sim_panel_open(&panel, &config));
     config.width = OW_PANEL_SIZE_MAX + 1;
     assert_false(sim_panel_open(&panel, &config));

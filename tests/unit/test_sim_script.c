@@ -23,11 +23,11 @@ static void events_are_read(void **state)
                                "86400000000 axis-z axis 32767\n"
                                "86400000000 255 turn +1000";
     static const struct ow_input_event expected[] = {
-        {0, OW_CONTROL_LEFT, OW_INPUT_PRESS, 0},
-        {10, OW_CONTROL_LEFT, OW_INPUT_RELEASE, 0},
-        {10, OW_CONTROL_KNOB_1, OW_INPUT_TURN, -3},
-        {SIM_SCRIPT_TIME_MAX, OW_CONTROL_AXIS_Z, OW_INPUT_AXIS, 32767},
-        {SIM_SCRIPT_TIME_MAX, 255, OW_INPUT_TURN, 1000},
+        { 0, OW_CONTROL_LEFT, OW_INPUT_PRESS, 0 },
+        { 10, OW_CONTROL_LEFT, OW_INPUT_RELEASE, 0 },
+        { 10, OW_CONTROL_KNOB_1, OW_INPUT_TURN, -3 },
+        { SIM_SCRIPT_TIME_MAX, OW_CONTROL_AXIS_Z, OW_INPUT_AXIS, 32767 },
+        { SIM_SCRIPT_TIME_MAX, 255, OW_INPUT_TURN, 1000 },
     };
     struct sim_script script;
     struct sim_script_error error;
@@ -50,25 +50,25 @@ static void wrong_lines_are_named(void **state)
         long line;
         const char *says;
     } cases[] = {
-        {"x left press\n", 1, "'x' is not a time"},
-        {"-1 left press\n", 1, "not a time"},
-        {"86400000001 left press\n", 1, "not a time"},
-        {"99999999999999999999999 left press\n", 1, "not a time"},
-        {"1.5 left press\n", 1, "not a time"},
-        {"0x10 left press\n", 1, "not a time"},
-        {"\n\n5 left press\n4 left release\n", 4, "before the line above"},
-        {"0 middle press\n", 1, "'middle' is not a control"},
-        {"0 256 press\n", 1, "not a control"},
-        {"0 -1 press\n", 1, "not a control"},
-        {"0 left\n", 1, "an event is"},
-        {"# fine\n0\n", 2, "an event is"},
-        {"0 left push\n", 1, "'push' is not press"},
-        {"0 left press 1\n", 1, "press takes no value"},
-        {"0 knob1 turn\n", 1, "turn takes one value"},
-        {"0 knob1 turn 1 2\n", 1, "turn takes one value"},
-        {"0 knob1 turn 1001\n", 1, "from -1000 to 1000"},
-        {"0 knob1 turn 1x\n", 1, "not '1x'"},
-        {"0 axis-x axis -32768\n", 1, "from -32767 to 32767"},
+        { "x left press\n", 1, "'x' is not a time" },
+        { "-1 left press\n", 1, "not a time" },
+        { "86400000001 left press\n", 1, "not a time" },
+        { "99999999999999999999999 left press\n", 1, "not a time" },
+        { "1.5 left press\n", 1, "not a time" },
+        { "0x10 left press\n", 1, "not a time" },
+        { "\n\n5 left press\n4 left release\n", 4, "before the line above" },
+        { "0 middle press\n", 1, "'middle' is not a control" },
+        { "0 256 press\n", 1, "not a control" },
+        { "0 -1 press\n", 1, "not a control" },
+        { "0 left\n", 1, "an event is" },
+        { "# fine\n0\n", 2, "an event is" },
+        { "0 left push\n", 1, "'push' is not press" },
+        { "0 left press 1\n", 1, "press takes no value" },
+        { "0 knob1 turn\n", 1, "turn takes one value" },
+        { "0 knob1 turn 1 2\n", 1, "turn takes one value" },
+        { "0 knob1 turn 1001\n", 1, "from -1000 to 1000" },
+        { "0 knob1 turn 1x\n", 1, "not '1x'" },
+        { "0 axis-x axis -32768\n", 1, "from -32767 to 32767" },
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -104,8 +104,8 @@ static void events_come_at_their_time(void **state)
     static const char text[] = "5 left press\n5 left release\n9 up press\n";
     struct sim_script script;
     struct sim_script_error error;
-    struct sim_clock time = {0};
-    struct ow_clock clock = {&sim_virtual_clock_ops, &time};
+    struct sim_clock time = { 0 };
+    struct ow_clock clock = { &sim_virtual_clock_ops, &time };
     struct ow_input_event event;
     (void)state;
     assert_true(sim_script_parse(&script, text, strlen(text), &error));
@@ -132,7 +132,7 @@ static void events_come_at_their_time(void **state)
 
 static void clocks_never_go_back(void **state)
 {
-    struct sim_clock time = {100};
+    struct sim_clock time = { 100 };
     uint64_t first;
     uint64_t second;
     (void)state;

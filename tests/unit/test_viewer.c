@@ -17,8 +17,8 @@
 
 #define DEGREE ((int32_t)11930465) /* 2^32 / 360 */
 
-static const struct sim_panel_config lending = {.kind = SIM_PANEL_LENDS};
-static const struct sim_panel_config taking = {.kind = SIM_PANEL_TAKES};
+static const struct sim_panel_config lending = { .kind = SIM_PANEL_LENDS };
+static const struct sim_panel_config taking = { .kind = SIM_PANEL_TAKES };
 
 /* ---- pictures ---- */
 
@@ -44,7 +44,7 @@ static uint32_t picture(const struct sim_panel_config *panel, uint16_t lines, ui
 
 static void the_same_picture_lent_and_written_in_any_bands(void **state)
 {
-    static const uint16_t lines[] = {0, 1, 7, 8, 46, 47, 48, 64, 4096};
+    static const uint16_t lines[] = { 0, 1, 7, 8, 46, 47, 48, 64, 4096 };
     (void)state;
     uint32_t crc = picture(&lending, 0, 0, 0);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
@@ -79,8 +79,8 @@ static void bands_keep_to_the_panels_alignment(void **state)
 static void the_null_panel_takes_frames(void **state)
 {
     struct scene scene;
-    struct ow_null_panel device = {SCENE_WIDTH, SCENE_HEIGHT, &ow_format_rgb565, 0};
-    struct ow_panel panel = {&ow_null_panel_ops, &device};
+    struct ow_null_panel device = { SCENE_WIDTH, SCENE_HEIGHT, &ow_format_rgb565, 0 };
+    struct ow_panel panel = { &ow_null_panel_ops, &device };
     (void)state;
     scene_open(&scene, &taking);
     scene.config.panel = &panel;
@@ -141,7 +141,7 @@ static void a_panel_that_turns_gets_the_upright_picture(void **state)
 {
     (void)state;
     for (int kind = SIM_PANEL_LENDS; kind <= SIM_PANEL_TAKES; kind++) {
-        struct sim_panel_config panel = {.kind = (enum sim_panel_kind)kind, .rotates = true};
+        struct sim_panel_config panel = { .kind = (enum sim_panel_kind)kind, .rotates = true };
         struct image upright;
         struct image turned;
         panel.width = SCENE_HEIGHT;
@@ -198,7 +198,7 @@ static void a_repeated_orbit_begins_again(void **state)
 static int give_view(void *context, uint32_t number, struct ow_camera *camera)
 {
     const struct scene *scene = context;
-    static const ow_q8 eyes[] = {0, 1 << 24};
+    static const ow_q8 eyes[] = { 0, 1 << 24 };
     if (number == 2) {
         return OW_GONE;
     }
@@ -249,8 +249,8 @@ static void play(struct played *played, const char *text, uint32_t views)
     scene_open(&played->scene, &lending);
     assert_true(sim_script_parse(&played->script, text, strlen(text), &error));
     played->script.clock = &played->scene.clock;
-    played->input = (struct ow_input){&sim_script_input_ops, &played->script};
-    played->wait = (struct ow_wait){&sim_script_wait_ops, &played->script};
+    played->input = (struct ow_input){ &sim_script_input_ops, &played->script };
+    played->wait = (struct ow_wait){ &sim_script_wait_ops, &played->script };
     config->input = &played->input;
     config->wait = &played->wait;
     config->views = views;
@@ -273,24 +273,24 @@ static void controls_turn_tilt_and_zoom(void **state)
         const char *script;
         int32_t turn, tilt, zoom; /* degrees, degrees, levels */
     } cases[] = {
-        {"0 left press\n0 left release\n", -10, 0, 0},
-        {"0 right press\n", 10, 0, 0},
-        {"0 up press\n", 0, 5, 0},
-        {"0 down press\n", 0, -5, 0},
-        {"0 in press\n", 0, 0, 1},
-        {"0 out press\n", 0, 0, -1},
-        {"0 knob1 turn 7\n", 35, 0, 0},
-        {"0 knob1 turn -7\n0 knob1 turn 8\n", 5, 0, 0},
-        {"0 knob2 turn -3\n", 0, -15, 0},
-        {"0 knob3 turn 4\n", 0, 0, 4},
-        {"0 knob3 turn 1000\n", 0, 0, 24},
-        {"0 knob3 turn -1000\n", 0, 0, -24},
-        {"0 knob2 turn 1000\n", 0, 89 - 23, 0}, /* the orbit's own are 22.5 degrees */
-        {"0 knob2 turn -1000\n", 0, -89 - 22, 0},
-        {"0 axis-x axis 16384\n", 90, 0, 0},
-        {"0 axis-x axis 16384\n0 axis-x axis -16384\n", -90, 0, 0},
-        {"0 200 press\n", 0, 0, 0},
-        {"0 right press\n0 up press\n0 in press\n0 select press\n", 0, 0, 0},
+        { "0 left press\n0 left release\n", -10, 0, 0 },
+        { "0 right press\n", 10, 0, 0 },
+        { "0 up press\n", 0, 5, 0 },
+        { "0 down press\n", 0, -5, 0 },
+        { "0 in press\n", 0, 0, 1 },
+        { "0 out press\n", 0, 0, -1 },
+        { "0 knob1 turn 7\n", 35, 0, 0 },
+        { "0 knob1 turn -7\n0 knob1 turn 8\n", 5, 0, 0 },
+        { "0 knob2 turn -3\n", 0, -15, 0 },
+        { "0 knob3 turn 4\n", 0, 0, 4 },
+        { "0 knob3 turn 1000\n", 0, 0, 24 },
+        { "0 knob3 turn -1000\n", 0, 0, -24 },
+        { "0 knob2 turn 1000\n", 0, 89 - 23, 0 }, /* the orbit's own are 22.5 degrees */
+        { "0 knob2 turn -1000\n", 0, -89 - 22, 0 },
+        { "0 axis-x axis 16384\n", 90, 0, 0 },
+        { "0 axis-x axis 16384\n0 axis-x axis -16384\n", -90, 0, 0 },
+        { "0 200 press\n", 0, 0, 0 },
+        { "0 right press\n0 up press\n0 in press\n0 select press\n", 0, 0, 0 },
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -375,9 +375,9 @@ static void a_byte_too_little_is_refused(void **state)
     for (int kind = SIM_PANEL_LENDS; kind <= SIM_PANEL_TAKES; kind++) {
         scene_open(&scene, kind == SIM_PANEL_LENDS ? &lending : &taking);
         assert_int_equal(scene_start(&scene), OW_OK);
-        assert_int_equal(ow_viewer_start(&scene.viewer, &scene.config, scene.memory,
-                                         scene.memory_bytes - 1),
-                         OW_MEMORY);
+        assert_int_equal(
+            ow_viewer_start(&scene.viewer, &scene.config, scene.memory, scene.memory_bytes - 1),
+            OW_MEMORY);
         assert_int_equal(ow_viewer_start(&scene.viewer, &scene.config, NULL, 0), OW_MEMORY);
         assert_int_equal(ow_viewer_step(&scene.viewer), 0);
         assert_int_equal(scene.panel.frames, 0);
@@ -395,14 +395,14 @@ static void missing_functions_are_unsupported(void **state)
     scene_open(&lender, &lending);
     for (int i = 0; i < 4; i++) {
         struct ow_panel_ops ops = *scene.panel.panel.ops;
-        struct ow_panel panel = {&ops, &scene.panel};
+        struct ow_panel panel = { &ops, &scene.panel };
         ops.info = i == 0 ? NULL : ops.info;
         ops.write = i == 1 ? NULL : ops.write;
         ops.show = i == 2 ? lender.panel.panel.ops->show : ops.show; /* without lend */
         assert_int_equal(ow_panel_check(&panel, &info), i == 3 ? OW_OK : OW_UNSUPPORTED);
     }
     assert_int_equal(ow_panel_check(NULL, &info), OW_UNSUPPORTED);
-    struct ow_clock clock = {NULL, NULL};
+    struct ow_clock clock = { NULL, NULL };
     scene.config.clock = &clock;
     uint64_t memory[4096];
     assert_int_equal(ow_viewer_start(&scene.viewer, &scene.config, memory, sizeof memory),

@@ -26,6 +26,13 @@ static uint32_t add_vertex(struct arrangement *a, struct vertex vertex, const do
     return a->vertex_count++;
 }
 
+static int compare_records(const void *left, const void *right)
+{
+    uint32_t a = *(const uint32_t *)left;
+    uint32_t b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
 static void list_records(struct arrangement *a, const struct mesh *mesh)
 {
     a->record_first = xalloc_zero((size_t)mesh->point_count + 2, sizeof *a->record_first);
@@ -46,6 +53,10 @@ static void list_records(struct arrangement *a, const struct mesh *mesh)
             uint32_t point = mesh->corners[mesh->polygons[i].first + k];
             a->records[first[point]++] = mesh->polygons[i].record;
         }
+    }
+    for (uint32_t i = 0; i < mesh->point_count; i++) {
+        qsort(a->records + a->record_first[i], a->record_first[i + 1] - a->record_first[i],
+              sizeof *a->records, compare_records);
     }
 }
 
@@ -273,12 +284,9 @@ void arrangement_share(const struct arrangement *a, uint32_t line_number, uint32
 /* Is this point of the mesh a corner of a polygon with this plane? */
 static bool is_own_corner(const struct arrangement *a, uint32_t plane, uint32_t point)
 {
-    for (uint32_t i = a->record_first[point]; i < a->record_first[point + 1]; i++) {
-        if (a->records[i] == plane) {
-            return true;
-        }
-    }
-    return false;
+    const uint32_t *records = a->records + a->record_first[point];
+    size_t count = a->record_first[point + 1] - a->record_first[point];
+    return bsearch(&plane, records, count, sizeof *records, compare_records) != NULL;
 }
 
 static int side_of_lattice_point(const struct arrangement *a, uint32_t plane_number,

@@ -337,7 +337,7 @@ static uint32_t *polygons_of_outlines(const struct layout *l)
 {
     const struct repaired *repaired = l->parts->repaired;
     uint32_t *polygons = xalloc(repaired->outline_count, sizeof *polygons);
-    for (uint32_t i = 0; i < l->parts->pieces->count; i++) {
+    for (uint32_t i = 0; i < l->parts->piece_count; i++) {
         for (uint32_t k = repaired->first[i]; k < repaired->first[i + 1]; k++) {
             polygons[k] = l->parts->pieces->all[i].polygon;
         }

@@ -18,6 +18,7 @@ struct blob_parts {
     const struct mesh *mesh;
     const struct planes *planes;
     const struct pieces *pieces;
+    uint32_t piece_count; /* pieces that repaired knows of */
     const struct repaired *repaired;
     const struct tree *tree;
     const uint32_t *colours;

@@ -273,15 +273,20 @@ static void drop_repeated(struct mesh *mesh)
     free(cycles);
 }
 
-static void remove_dropped(struct mesh *mesh)
+/* Returns how many of those that stay have an area. */
+static uint32_t remove_dropped(struct mesh *mesh)
 {
     uint32_t kept = 0;
+    uint32_t with_area = 0;
     for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        if (mesh->polygons[i].count > 0) {
-            mesh->polygons[kept++] = mesh->polygons[i];
+        const struct mesh_polygon *polygon = &mesh->polygons[i];
+        if (polygon->count > 0) {
+            with_area += has_area(mesh, polygon->first, polygon->count);
+            mesh->polygons[kept++] = *polygon;
         }
     }
     mesh->polygon_count = kept;
+    return with_area;
 }
 
 static void read_polygons(struct cleaner *c)
@@ -311,8 +316,7 @@ bool clean_model(struct mesh *mesh, const struct model *model, bool keep_normals
     read_polygons(&cleaner);
     conform_drop_lines(mesh);
     drop_repeated(mesh);
-    remove_dropped(mesh);
-    if (mesh->polygon_count == 0) {
+    if (remove_dropped(mesh) == 0) {
         return problem_set(problem, 0, "all %zu polygons are degenerate: no area is left",
                            model->polygon_count);
     }

@@ -24,6 +24,8 @@ struct compiler {
     struct pieces pieces;
     struct tree tree;
     struct repaired repaired;
+    uint32_t tree_pieces; /* pieces there were when the tree was built */
+    uint32_t splits;
     bool two_sided;
 };
 
@@ -62,12 +64,15 @@ static bool *find_drawn(const struct compiler *c)
 
 static void repair_and_prune(struct compiler *c)
 {
+    uint32_t count = c->pieces.count;
     bool *drawn = find_drawn(c);
-    uint32_t *plane_of = xalloc(c->pieces.count, sizeof *plane_of);
-    for (uint32_t i = 0; i < c->pieces.count; i++) {
+    uint32_t *plane_of = xalloc(count, sizeof *plane_of);
+    for (uint32_t i = 0; i < count; i++) {
         plane_of[i] = c->pieces.all[i].record;
     }
-    repair_pieces(&c->repaired, &c->arrangement, &c->pieces, &c->mesh, drawn);
+    c->tree_pieces = count;
+    c->splits = c->pieces.splits;
+    repair_pieces(&c->repaired, &c->arrangement, &c->planes, &c->pieces, &c->mesh, drawn);
     tree_prune(&c->tree, c->repaired.first, plane_of);
     free(drawn);
     free(plane_of);
@@ -79,6 +84,7 @@ static bool write_checked(struct compiler *c, struct blob *blob, const struct mo
     struct blob_parts parts = { .mesh = &c->mesh,
                                 .planes = &c->planes,
                                 .pieces = &c->pieces,
+                                .piece_count = c->tree_pieces,
                                 .repaired = &c->repaired,
                                 .tree = &c->tree,
                                 .colours = model->colours,
@@ -110,7 +116,7 @@ static void fill_stats(const struct compiler *c, const struct model *model,
         .lines_dropped = model->lines_dropped,
         .planes = c->planes.count,
         .shared_planes = c->planes.shared,
-        .splits = c->pieces.splits,
+        .splits = c->splits,
         .vanished = c->repaired.vanished,
         .inserted = c->repaired.inserted,
         .uneven = c->repaired.uneven,
@@ -153,6 +159,6 @@ bool compile_model(struct blob *blob, struct compile_stats *stats, const struct 
     pieces_free(&compiler.pieces);
     arrangement_free(&compiler.arrangement);
     planes_free(&compiler.planes);
-    mesh_free(&compiler.mesh);
+    mesh_discard(&compiler.mesh);
     return fine;
 }

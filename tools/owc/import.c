@@ -455,7 +455,7 @@ bool import_memory(struct model *model, const void *bytes, size_t size, const ch
     return fine;
 }
 
-void model_free(struct model *model)
+void import_free(struct model *model)
 {
     free(model->vertices);
     free(model->normals);

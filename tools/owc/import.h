@@ -16,4 +16,6 @@ bool import_file(struct model *model, const char *path, struct problem *problem)
 bool import_memory(struct model *model, const void *bytes, size_t size, const char *hint,
                    struct problem *problem);
 
+void import_free(struct model *model);
+
 #endif

@@ -175,7 +175,7 @@ static void compile(const struct command *c)
     warn_about(c, &model);
     write_files(c, &blob, &stats, progress_clock() - begin);
     blob_free(&blob);
-    model_free(&model);
+    import_free(&model);
 }
 
 int main(int argc, char **argv)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void mesh_free(struct mesh *mesh)
+void mesh_discard(struct mesh *mesh)
 {
     free(mesh->points);
     free(mesh->polygons);

@@ -43,7 +43,7 @@ struct mesh {
     uint32_t repeated_dropped;   /* the same corners as a later polygon */
 };
 
-void mesh_free(struct mesh *mesh);
+void mesh_discard(struct mesh *mesh);
 
 /* The polygon's area vector times 2 (Newell): exact, since lattice coordinates are small. */
 void mesh_area(const int16_t (*points)[3], const uint32_t *corners, uint32_t count,

@@ -35,6 +35,4 @@ struct model {
     uint64_t colours_changed; /* materials that came too late for a colour of their own */
 };
 
-void model_free(struct model *model);
-
 #endif

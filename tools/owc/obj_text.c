@@ -123,7 +123,7 @@ bool obj_check(const char *text, size_t size, struct problem *problem)
     line = 1;
     for (size_t at = 0; at < size; at = next_line(text, size, at, &line)) {
         size_t word = skip_blanks(text, at);
-        bool follows = is_blank(text[word + 1]);
+        bool follows = text[word] != '\0' && is_blank(text[word + 1]);
         before += text[word] == 'v' && follows;
         if (text[word] == 'f' && follows &&
             !check_corners(text + word + 1, line, before, all, problem)) {

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "long_cut.h"
 #include "map64.h"
 #include "tools/common/xalloc.h"
 #include "triangulate.h"
@@ -134,6 +135,9 @@ struct maker {
     const struct orders *orders;
     const struct pieces *pieces;
     const struct mesh *mesh;
+    struct long_cuts cuts;
+    uint32_t *stack;
+    size_t stack_capacity;
 };
 
 static const int16_t *lattice_of(const struct maker *m, uint32_t vertex)
@@ -312,7 +316,43 @@ static void add_outline(struct maker *m, const struct piece *piece, size_t first
 
 /* ---- outlines with too many corners ---- */
 
-/* Copies a corner of the long outline to the end; joined says that the next edge is new. */
+/* Corners of a piece with all that lies between them, before rounding joins any. */
+static uint32_t count_corners(const struct orders *o, const struct pieces *pieces,
+                              const struct piece *piece)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < piece->count; i++) {
+        size_t from = piece->first + i;
+        size_t to = piece->first + (i + 1 < piece->count ? i + 1 : 0);
+        uint32_t line = pieces->edges[from] >> 1;
+        count++;
+        if (o->first[line + 1] > o->first[line]) {
+            uint32_t a = rank_on(o, line, pieces->vertices[from]);
+            uint32_t b = rank_on(o, line, pieces->vertices[to]);
+            count += (a < b ? b - a : a - b) - (a != b);
+        }
+    }
+    return count;
+}
+
+/* Cuts all that is too long. The cuts may lengthen neighbours, so this goes in rounds. */
+static uint32_t cut_long_pieces(struct maker *m, struct arrangement *arrangement,
+                                struct planes *planes, struct pieces *pieces, const bool *drawn,
+                                uint32_t drawn_count)
+{
+    uint32_t made = 0;
+    uint32_t count = pieces->count;
+    for (uint32_t i = 0; i < count; i++) {
+        bool part = i >= drawn_count;
+        if ((part || drawn[i]) && long_cut_part(&m->cuts, i, 0) == MESH_NONE &&
+            count_corners(m->orders, pieces, &pieces->all[i]) > OW_MAX_CORNERS) {
+            made += long_cut(&m->cuts, arrangement, planes, pieces, i);
+        }
+    }
+    return made;
+}
+
+/* Copies a corner of the long outline to the end; joined: the edge to the next one is new. */
 static void copy_corner(struct repaired *out, size_t from, bool joined)
 {
     int16_t at[3];
@@ -325,7 +365,9 @@ static void copy_corner(struct repaired *out, size_t from, bool joined)
                out->normals ? normal : NULL);
 }
 
-static void cut_long(struct maker *m, const struct piece *piece, size_t first, uint32_t count)
+/* The last resort, for an outline that no plane shortens. */
+static void cut_into_triangles(struct maker *m, const struct piece *piece, size_t first,
+                               uint32_t count)
 {
     struct repaired *out = m->out;
     double(*points)[3] = xalloc(count, sizeof *points);
@@ -345,14 +387,13 @@ static void cut_long(struct maker *m, const struct piece *piece, size_t first, u
         }
         add_outline(m, piece, begin, 3);
     }
-    out->long_cut++;
     free(points);
     free(triangles);
 }
 
 /* ---- all pieces ---- */
 
-static void make_outlines(struct maker *m, const struct piece *piece)
+static void make_outline(struct maker *m, const struct piece *piece)
 {
     struct repaired *out = m->out;
     size_t first = out->corner_count;
@@ -372,28 +413,55 @@ static void make_outlines(struct maker *m, const struct piece *piece)
     }
     uint32_t count = (uint32_t)(out->corner_count - first);
     if (count > OW_MAX_CORNERS) {
-        cut_long(m, piece, first, count);
+        cut_into_triangles(m, piece, first, count);
     } else {
         add_outline(m, piece, first, count);
     }
 }
 
-void repair_pieces(struct repaired *repaired, const struct arrangement *arrangement,
-                   const struct pieces *pieces, const struct mesh *mesh, const bool *drawn)
+/* The outlines of a piece, or of all parts that it was cut into. */
+static void make_outlines(struct maker *m, uint32_t piece)
+{
+    size_t count = 0;
+    m->stack = xgrow(m->stack, &m->stack_capacity, 1, sizeof *m->stack);
+    m->stack[count++] = piece;
+    while (count > 0) {
+        uint32_t next = m->stack[--count];
+        if (long_cut_part(&m->cuts, next, 0) == MESH_NONE) {
+            make_outline(m, &m->pieces->all[next]);
+            continue;
+        }
+        m->stack = xgrow(m->stack, &m->stack_capacity, count + 2, sizeof *m->stack);
+        m->stack[count++] = long_cut_part(&m->cuts, next, 1);
+        m->stack[count++] = long_cut_part(&m->cuts, next, 0);
+        m->out->long_cut++;
+    }
+}
+
+void repair_pieces(struct repaired *repaired, struct arrangement *arrangement,
+                   struct planes *planes, struct pieces *pieces, const struct mesh *mesh,
+                   const bool *drawn)
 {
     struct orders orders;
+    uint32_t count = pieces->count;
+    struct maker maker = { .out = repaired, .orders = &orders, .pieces = pieces, .mesh = mesh };
     *repaired = (struct repaired){ 0 };
     sort_lines(&orders, arrangement);
-    struct maker maker = { repaired, &orders, pieces, mesh };
-    repaired->first = xalloc((size_t)pieces->count + 1, sizeof *repaired->first);
-    for (uint32_t i = 0; i < pieces->count; i++) {
+    while (cut_long_pieces(&maker, arrangement, planes, pieces, drawn, count) > 0) {
+        orders_free(&orders);
+        sort_lines(&orders, arrangement);
+    }
+    repaired->first = xalloc((size_t)count + 1, sizeof *repaired->first);
+    for (uint32_t i = 0; i < count; i++) {
         repaired->first[i] = repaired->outline_count;
         if (drawn[i]) {
-            make_outlines(&maker, &pieces->all[i]);
+            make_outlines(&maker, i);
         }
     }
-    repaired->first[pieces->count] = repaired->outline_count;
+    repaired->first[count] = repaired->outline_count;
     orders_free(&orders);
+    long_cuts_free(&maker.cuts);
+    free(maker.stack);
 }
 
 void repaired_free(struct repaired *repaired)

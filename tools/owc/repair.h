@@ -13,6 +13,7 @@
 
 #include "arrangement.h"
 #include "pieces.h"
+#include "plane.h"
 
 /* An outline of at most OW_MAX_CORNERS corners. */
 struct outline_final {
@@ -37,12 +38,16 @@ struct repaired {
     uint32_t vanished; /* pieces that rounded to less than three points */
     uint32_t uneven;
     uint32_t inserted; /* corners that came from neighbours */
-    uint32_t long_cut; /* outlines with too many corners for one record */
+    uint32_t long_cut; /* cuts of pieces with too many corners for one record */
 };
 
-/* drawn[i]: piece i is in the tree (and was not cut). */
-void repair_pieces(struct repaired *repaired, const struct arrangement *arrangement,
-                   const struct pieces *pieces, const struct mesh *mesh, const bool *drawn);
+/*
+ * drawn[i]: piece i is in the tree. Pieces with too many corners are cut, which
+ * adds pieces, vertices and planes. first knows the pieces that there were.
+ */
+void repair_pieces(struct repaired *repaired, struct arrangement *arrangement,
+                   struct planes *planes, struct pieces *pieces, const struct mesh *mesh,
+                   const bool *drawn);
 void repaired_free(struct repaired *repaired);
 
 #endif

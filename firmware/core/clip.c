@@ -58,9 +58,9 @@ static struct ow_camera_point meet(const struct ow_view *view, const struct ow_c
         part >>= 1;
     }
     uint32_t share = part >= whole ? 1u << 30 : ow_ratio((uint32_t)part, (uint32_t)whole, 30);
-    struct ow_camera_point p = {.x = between(kept->x, cut->x, share),
-                                .y = between(kept->y, cut->y, share),
-                                .z = between(kept->z, cut->z, share)};
+    struct ow_camera_point p = { .x = between(kept->x, cut->x, share),
+                                 .y = between(kept->y, cut->y, share),
+                                 .z = between(kept->z, cut->z, share) };
     for (int i = 0; i < OW_LIGHT_PARTS; i++) {
         p.light.part[i] = between(kept->light.part[i], cut->light.part[i], share);
     }

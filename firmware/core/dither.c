@@ -34,8 +34,8 @@ void ow_dither_fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t
     fill_each(format, row, y, end_whole * PERIOD, end, rgb);
 }
 
-void ow_dither_store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y,
-                     uint32_t first, uint32_t end, const uint32_t *rgb)
+void ow_dither_store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
+                     uint32_t end, const uint32_t *rgb)
 {
     for (uint32_t x = first; x < end; x++) {
         format->fill(row, x, x + 1, format->dither(*rgb++, ow_dither_threshold(x, y)));

@@ -46,8 +46,8 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
     }
     uint32_t which;
     bool overflow = false;
-    uint32_t count = ow_clip(frame->view, workspace->clip, corners, workspace->capacity, &which,
-                             &overflow);
+    uint32_t count =
+        ow_clip(frame->view, workspace->clip, corners, workspace->capacity, &which, &overflow);
     frame->dropped += overflow;
     for (uint32_t i = 0; i < count; i++) {
         workspace->outline[i] = ow_to_screen(frame->view, workspace->clip[which][i]);
@@ -67,7 +67,8 @@ static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *
     const int32_t step = reverse ? -1 : 1;
     struct ow_outline_point *out = frame->workspace->outline + (reverse ? corners - 1 : 0);
     for (uint32_t i = 0; i < corners; i++, out += step) {
-        uint32_t vertex = wide ? ow_read_u32(corner_bytes, 4 * i) : ow_read_u16(corner_bytes, 2 * i);
+        uint32_t vertex =
+            wide ? ow_read_u32(corner_bytes, 4 * i) : ow_read_u16(corner_bytes, 2 * i);
         struct ow_cached_vertex *cached = &cache[vertex & mask];
         if (cached->tag != (tag | vertex)) {
             project_vertex(frame, vertex, cached);
@@ -100,13 +101,12 @@ static void begin_gradient(struct ow_frame *frame)
     if (!frame->clipped) {
         for (uint32_t i = 0; i < frame->points; i++) {
             uint32_t from = face->reverse ? frame->points - 1 - i : i;
-            workspace->corner_lights[i] =
-                ow_shade_corner(&frame->shader, frame->tree, corner(frame->tree, face->at, from),
-                                face->reverse);
+            workspace->corner_lights[i] = ow_shade_corner(
+                &frame->shader, frame->tree, corner(frame->tree, face->at, from), face->reverse);
         }
     }
-    ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights,
-                      frame->points, frame->shader.shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
+    ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights, frame->points,
+                      frame->shader.shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
 }
 
 /* A face is shaded when its first spans come: most small faces have none. */
@@ -166,13 +166,12 @@ static enum ow_status check(const struct ow_tree *tree, const struct ow_view *vi
                             const struct ow_target *target, const struct ow_workspace *workspace)
 {
     uint32_t end_line = (uint32_t)target->first_line + target->line_count;
-    bool fits = view->width <= workspace->width && target->line_count <= workspace->lines &&
-                target->line_count > 0 && end_line <= view->height && target->stride % 4 == 0 &&
-                target->stride >= ow_row_bytes(target->format, view->width) &&
-                (uintptr_t)target->pixels % 4 == 0 &&
-                workspace->capacity >= 2 * tree->max_corners &&
-                (workspace->cache_mask != 0xFFFFFFFFu ||
-                 workspace->cache_entries >= tree->vertex_count);
+    bool fits =
+        view->width <= workspace->width && target->line_count <= workspace->lines &&
+        target->line_count > 0 && end_line <= view->height && target->stride % 4 == 0 &&
+        target->stride >= ow_row_bytes(target->format, view->width) &&
+        (uintptr_t)target->pixels % 4 == 0 && workspace->capacity >= 2 * tree->max_corners &&
+        (workspace->cache_mask != 0xFFFFFFFFu || workspace->cache_entries >= tree->vertex_count);
     return fits ? OW_OK : OW_ARGUMENT;
 }
 
@@ -202,12 +201,12 @@ static void begin_frame(struct ow_frame *frame, const struct ow_tree *tree,
                         const struct ow_view *view, const struct ow_look *look,
                         const struct ow_target *target, struct ow_workspace *workspace)
 {
-    frame->sink = (struct ow_span_sink){workspace->spans, 0, workspace->lines, paint};
+    frame->sink = (struct ow_span_sink){ workspace->spans, 0, workspace->lines, paint };
     frame->tree = tree;
     frame->view = view;
     frame->workspace = workspace;
-    frame->window = (struct ow_window){target->first_line, target->first_line + target->line_count,
-                                       view->width};
+    frame->window = (struct ow_window){ target->first_line, target->first_line + target->line_count,
+                                        view->width };
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     frame->tag = next_stamp(workspace);
     frame->dropped = 0;
@@ -216,7 +215,7 @@ static void begin_frame(struct ow_frame *frame, const struct ow_tree *tree,
     begin_surface(&frame->surface, workspace, view, target);
     frame->surface.shader = &frame->shader;
     frame->surface.gradient = ow_shade_is_smooth(look->shade) ? &frame->gradient : NULL;
-    frame->walk.skip = (struct ow_walk_skip){hides_node, frame};
+    frame->walk.skip = (struct ow_walk_skip){ hides_node, frame };
 }
 
 static void report(const struct ow_frame *frame, uint32_t painted, struct ow_stats *stats)

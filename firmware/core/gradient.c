@@ -9,15 +9,16 @@
 #include "ow_memory.h"
 
 enum {
-    SUB = 16,
-    HALF = 8,
-    FRACTION = 16,   /* fraction bits of a value */
-    PLANE_MIN = 2048 /* a triangle of less than 4 pixels (twice its area in 1/256) is even */
+    SUB = OW_SUB,
+    HALF = OW_SUB / 2,
+    FRACTION = 16,             /* fraction bits of a value */
+    PLANE_MIN = 8 * SUB * SUB, /* twice its area: a triangle of less than 4 pixels is even */
+    RECIPROCAL_BITS = 22
 };
 
 /*
- * numerator * 2^FRACTION / denominator within 2^-25 of it. |numerator| < 2^37,
- * denominator PLANE_MIN .. 2^37: the result fits 2^42.
+ * numerator * 2^FRACTION / denominator within 2^-20 of it. |numerator| < 2^40,
+ * denominator PLANE_MIN .. 2^43: the result is below 2^37.
  */
 static int64_t divide(int64_t numerator, uint64_t denominator)
 {
@@ -28,9 +29,9 @@ static int64_t divide(int64_t numerator, uint64_t denominator)
     }
     uint32_t zeros = ow_leading_zeros((uint32_t)denominator);
     shift -= (int32_t)zeros;
-    int64_t reciprocal = ow_reciprocal((uint32_t)denominator << zeros) >> 6; /* 2^57 / d */
+    int64_t reciprocal = ow_reciprocal((uint32_t)denominator << zeros) >> (32 - RECIPROCAL_BITS);
     int64_t product = numerator * reciprocal;
-    return product >> (57 - FRACTION + shift);
+    return product >> (31 + RECIPROCAL_BITS - FRACTION + shift);
 }
 
 static void begin_plane(struct ow_gradient *g, int64_t cross)
@@ -95,12 +96,12 @@ void ow_gradient_begin(struct ow_gradient *gradient, const struct ow_outline_poi
 
 /* Where an edge crosses a line's centre. */
 struct crossing {
-    ow_sub4 x;
+    ow_sub8 x;
     int32_t part[OW_LIGHT_PARTS];
 };
 
 /* The edge from corner i, which crosses the centre y; down its share from the top, 13 bits. */
-static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_sub4 y)
+static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_sub8 y)
 {
     uint32_t top = i;
     uint32_t bottom = i + 1 == g->count ? 0 : i + 1;
@@ -111,8 +112,10 @@ static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_su
     }
     const struct ow_outline_point *a = &g->points[top];
     const struct ow_outline_point *b = &g->points[bottom];
-    int64_t share = ((uint32_t)(y - a->y) << 13) / (uint32_t)(b->y - a->y);
-    struct crossing c = {a->x + (ow_sub4)(((b->x - a->x) * share) >> 13), {0, 0, 0}};
+    uint32_t height = (uint32_t)(b->y - a->y); /* below 2^21 */
+    uint32_t coarser = height >> 18 ? 3 : 0;
+    int64_t share = ((uint32_t)(y - a->y) >> coarser << 13) / (height >> coarser);
+    struct crossing c = { a->x + (ow_sub8)(((b->x - a->x) * share) >> 13), { 0, 0, 0 } };
     for (uint32_t k = 0; k < g->parts; k++) {
         int32_t from = g->lights[top].part[k];
         c.part[k] = from + (int32_t)(((g->lights[bottom].part[k] - from) * share) >> 13);
@@ -121,9 +124,9 @@ static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_su
 }
 
 /* The ramp through the leftmost and the rightmost crossing of the line. */
-static void span_line(struct ow_gradient *g, ow_sub4 y)
+static void span_line(struct ow_gradient *g, ow_sub8 y)
 {
-    struct crossing left = {0, {0, 0, 0}};
+    struct crossing left = { 0, { 0, 0, 0 } };
     struct crossing right = left;
     bool any = false;
     for (uint32_t i = 0; i < g->count; i++) {
@@ -138,7 +141,7 @@ static void span_line(struct ow_gradient *g, ow_sub4 y)
     }
     int32_t across = right.x - left.x;
     for (uint32_t k = 0; k < g->parts; k++) {
-        int64_t slope = 0; /* per 1/16 pixel */
+        int64_t slope = 0; /* per 1/256 pixel */
         if (across > 0) {
             int32_t rise = right.part[k] - left.part[k];
             uint32_t steep = ((uint32_t)(rise < 0 ? -rise : rise) << 14) / (uint32_t)across;
@@ -151,7 +154,7 @@ static void span_line(struct ow_gradient *g, ow_sub4 y)
 
 void ow_gradient_line(struct ow_gradient *gradient, int32_t line)
 {
-    ow_sub4 y = line * SUB + HALF;
+    ow_sub8 y = line * SUB + HALF;
     gradient->line = line;
     if (!gradient->is_plane) {
         span_line(gradient, y);

@@ -72,11 +72,21 @@ static void read_header(struct ow_tree *tree, const uint8_t *bytes)
     }
 }
 
-/* count records of each bytes fill the section from begin to end, but for padding. */
-static bool section_fits(uint32_t begin, uint32_t end, uint32_t count, uint32_t each)
+/* count records of each bytes fill the section from begin to end, but for padding, which is 0. */
+static bool section_fits(const struct ow_tree *tree, uint32_t begin, uint32_t end, uint32_t count,
+                         uint32_t each)
 {
     uint64_t needed = (uint64_t)count * each;
-    return begin <= end && begin % 4 == 0 && needed <= end - begin && end - begin - needed < 4;
+    if (begin > end || begin % 4 != 0 || end > tree->blob_bytes || needed > end - begin ||
+        end - begin - needed >= 4) {
+        return false;
+    }
+    for (uint32_t at = begin + (uint32_t)needed; at < end; at++) {
+        if (ow_read_u8(tree->bytes, at) != 0) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static enum ow_status check_header(const struct ow_tree *tree)
@@ -84,23 +94,21 @@ static enum ow_status check_header(const struct ow_tree *tree)
     const uint8_t *bytes = tree->bytes;
     uint32_t instances_at = ow_read_u32(bytes, FIELD(instances_at));
     uint32_t normal_count = (tree->flags & OW_TREE_NORMALS) ? tree->vertex_count : 0;
-    bool sections = tree->nodes_at == sizeof(struct ow_disk_header) &&
-                    tree->nodes_at <= tree->polygons_at && tree->polygons_at % 4 == 0 &&
-                    tree->polygons_at <= tree->vertices_at &&
-                    section_fits(tree->vertices_at, tree->normals_at, tree->vertex_count,
-                                 OW_VERTEX_BYTES) &&
-                    section_fits(tree->normals_at, tree->colours_at, normal_count,
-                                 OW_NORMAL_BYTES) &&
-                    section_fits(tree->colours_at, instances_at, tree->colour_count,
-                                 OW_COLOUR_BYTES) &&
-                    section_fits(instances_at, tree->blob_bytes, 0, 1);
+    bool sections =
+        tree->nodes_at == sizeof(struct ow_disk_header) && tree->nodes_at <= tree->polygons_at &&
+        tree->polygons_at % 4 == 0 && tree->polygons_at <= tree->vertices_at &&
+        section_fits(tree, tree->vertices_at, tree->normals_at, tree->vertex_count,
+                     OW_VERTEX_BYTES) &&
+        section_fits(tree, tree->normals_at, tree->colours_at, normal_count, OW_NORMAL_BYTES) &&
+        section_fits(tree, tree->colours_at, instances_at, tree->colour_count, OW_COLOUR_BYTES) &&
+        section_fits(tree, instances_at, tree->blob_bytes, 0, 1);
     bool limits = (tree->flags & ~(uint32_t)OW_TREE_FLAGS_KNOWN) == 0 &&
                   ow_read_u32(bytes, FIELD(instance_count)) == 0 &&
                   tree->vertex_count <= OW_MAX_VERTICES && tree->colour_count <= OW_MAX_COLOURS &&
                   tree->depth <= OW_MAX_DEPTH && tree->max_corners <= OW_MAX_CORNERS;
     for (uint32_t i = 0; i < 3; i++) {
-        limits = limits && tree->box_min[i] <= tree->box_max[i] &&
-                 tree->box_min[i] >= -OW_LATTICE_MAX;
+        limits =
+            limits && tree->box_min[i] <= tree->box_max[i] && tree->box_min[i] >= -OW_LATTICE_MAX;
     }
     return sections && limits ? OW_OK : OW_CORRUPT;
 }
@@ -113,7 +121,8 @@ static uint32_t corner_bytes(const struct ow_tree *tree)
 uint32_t ow_polygon_bytes(const struct ow_tree *tree, uint32_t at)
 {
     uint32_t corners = ow_read_u8(tree->bytes, at);
-    uint32_t marks = (ow_read_u16(tree->bytes, at + 4) & OW_POLYGON_MARKED) ? (corners + 15) / 16 : 0;
+    uint32_t marks =
+        (ow_read_u16(tree->bytes, at + 4) & OW_POLYGON_MARKED) ? (corners + 15) / 16 : 0;
     return tree->corners_in_record + corners * corner_bytes(tree) + 2 * marks;
 }
 
@@ -134,8 +143,8 @@ static bool polygon_is_valid(const struct ow_tree *tree, uint32_t value, struct 
     uint32_t step = corner_bytes(tree);
     for (uint32_t i = 0; i < corners; i++) {
         uint32_t corner_at = at + tree->corners_in_record + i * step;
-        uint32_t vertex = step == 4 ? ow_read_u32(tree->bytes, corner_at)
-                                    : ow_read_u16(tree->bytes, corner_at);
+        uint32_t vertex =
+            step == 4 ? ow_read_u32(tree->bytes, corner_at) : ow_read_u16(tree->bytes, corner_at);
         if (vertex >= tree->vertex_count) {
             return false;
         }
@@ -204,6 +213,9 @@ static bool node_is_valid(const struct ow_tree *tree, uint32_t at, struct tally 
             }
         }
         items_at += OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES;
+        if (ow_read_u8(tree->bytes, items_at - OW_SWITCH_PLANE_BYTES + 11) != 0) {
+            return false; /* the spare byte of the plane's word 2 */
+        }
     }
     bool ordered = count > 1 && !is_switch;
     for (uint32_t i = 0; i < count; i++) {

@@ -67,7 +67,7 @@ struct ow_disk_header {
     uint32_t instances_at;
     int16_t box_min[3]; /* bounding box of all vertices */
     int16_t box_max[3];
-    uint32_t tolerance_q8;  /* the compiler's tolerance, lattice steps with 8 fraction bits */
+    uint32_t tolerance_q8;   /* the compiler's tolerance, lattice steps with 8 fraction bits */
     uint64_t origin_bits[3]; /* IEEE 754 binary64: model coordinates of lattice point 0,0,0 */
     uint64_t step_bits;      /* IEEE 754 binary64: model units in a lattice step */
 };

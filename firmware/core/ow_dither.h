@@ -22,7 +22,7 @@ void ow_dither_fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t
                     uint32_t end, uint32_t rgb);
 
 /* Stores end - first colours 0x00RRGGBB into pixels first .. end-1, dithered. */
-void ow_dither_store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y,
-                     uint32_t first, uint32_t end, const uint32_t *rgb);
+void ow_dither_store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
+                     uint32_t end, const uint32_t *rgb);
 
 #endif

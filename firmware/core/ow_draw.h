@@ -49,8 +49,8 @@ struct ow_look {
 
 /* Where the band's pixels go. */
 struct ow_target {
-    uint8_t *pixels;   /* of first_line's first pixel; aligned to 4 bytes */
-    uint32_t stride;   /* bytes from a line to the next, a multiple of 4 */
+    uint8_t *pixels; /* of first_line's first pixel; aligned to 4 bytes */
+    uint32_t stride; /* bytes from a line to the next, a multiple of 4 */
     uint16_t first_line;
     uint16_t line_count; /* first_line + line_count <= the view's height */
     const struct ow_pixel_format *format;
@@ -58,18 +58,18 @@ struct ow_target {
 
 /* Counted over one call. */
 struct ow_stats {
-    uint32_t polygons_visited;  /* faces that the walk came by */
-    uint32_t polygons_painted;  /* faces of which at least one pixel was written */
-    uint32_t pixels_written;    /* by the model */
+    uint32_t polygons_visited; /* faces that the walk came by */
+    uint32_t polygons_painted; /* faces of which at least one pixel was written */
+    uint32_t pixels_written;   /* by the model */
     uint32_t pixels_background;
-    uint32_t spans;             /* runs of pixels written by the model */
-    uint32_t nodes_skipped;     /* bounded nodes out of view, facing away or covered */
-    uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
+    uint32_t spans;            /* runs of pixels written by the model */
+    uint32_t nodes_skipped;    /* bounded nodes out of view, facing away or covered */
+    uint32_t polygons_dropped; /* outlines that clipping made too long for the workspace */
 };
 
 struct ow_workspace_config {
-    uint16_t width;  /* largest view to be drawn, pixels */
-    uint16_t lines;  /* most lines of a band */
+    uint16_t width; /* largest view to be drawn, pixels */
+    uint16_t lines; /* most lines of a band */
     /* Entries of the vertex cache, a power of two or 0: one for every vertex. 12 bytes each. */
     uint32_t cached_vertices;
 };
@@ -87,12 +87,12 @@ struct ow_workspace {
     uint32_t *unlit;       /* front to back: a bit a pixel */
     uint16_t *open_pixels; /* front to back: unlit pixels of each line */
     uint32_t *open_tiles;  /* front to back: a bit for each tile that may have unlit pixels */
-    uint32_t cache_mask;  /* entries - 1, or all ones */
+    uint32_t cache_mask;   /* entries - 1, or all ones */
     uint32_t cache_entries;
-    uint32_t capacity;    /* points of an outline after clipping */
+    uint32_t capacity; /* points of an outline after clipping */
     uint32_t width;
     uint32_t lines;
-    uint32_t stamp;       /* of the frame whose vertices are in the cache */
+    uint32_t stamp; /* of the frame whose vertices are in the cache */
 };
 
 /* Bytes of memory that ow_workspace_place needs. 0: the configuration is out of range. */

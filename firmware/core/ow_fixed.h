@@ -10,10 +10,12 @@
 
 #include <stdint.h>
 
-typedef int32_t ow_q8;   /* lattice units, 8 fraction bits */
-typedef int32_t ow_q30;  /* -2 .. 2, 30 fraction bits: unit vectors, sines */
-typedef int32_t ow_sub4; /* screen coordinates, pixels with 4 fraction bits */
+typedef int32_t ow_q8;    /* lattice units, 8 fraction bits */
+typedef int32_t ow_q30;   /* -2 .. 2, 30 fraction bits: unit vectors, sines */
+typedef int32_t ow_sub8;  /* screen coordinates, pixels with 8 fraction bits */
 typedef uint32_t ow_turn; /* an angle as a share of a full turn, 32 fraction bits */
+
+enum { OW_SUB_BITS = 8, OW_SUB = 1 << OW_SUB_BITS }; /* of ow_sub8: 1/256 pixel */
 
 _Static_assert((-1 >> 1) == -1, "shifts of negative numbers must be arithmetic");
 

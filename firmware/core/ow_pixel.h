@@ -10,8 +10,8 @@
 
 struct ow_pixel_format {
     const char *name;
-    uint8_t bits;      /* of a pixel, spare bits included */
-    uint32_t used;     /* mask of the packed value's bits that show; the others are 0 */
+    uint8_t bits;  /* of a pixel, spare bits included */
+    uint32_t used; /* mask of the packed value's bits that show; the others are 0 */
     /* 0x00RRGGBB to the format's value, rounded to the nearest level. */
     uint32_t (*pack)(uint32_t rgb);
     /* The inverse: 0x00RRGGBB, exact at the ends 0 and 255. */

@@ -30,8 +30,8 @@ struct ow_camera_point {
 };
 
 struct ow_outline_point {
-    ow_sub4 x;
-    ow_sub4 y;
+    ow_sub8 x;
+    ow_sub8 y;
 };
 
 /* A vertex's place on the screen; OW_CLIP_FIRST in x: it has none before clipping. */
@@ -53,12 +53,13 @@ static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
     uint32_t shift = view->camera_shift - 8u;
     return (struct ow_camera_point){
         (int32_t)((view->right[0] * x + view->right[1] * y + view->right[2] * z +
-                   view->offset[0]) >> shift),
-        (int32_t)((view->up[0] * x + view->up[1] * y + view->up[2] * z + view->offset[1]) >>
+                   view->offset[0]) >>
                   shift),
+        (int32_t)((view->up[0] * x + view->up[1] * y + view->up[2] * z + view->offset[1]) >> shift),
         (int32_t)((view->forward[0] * x + view->forward[1] * y + view->forward[2] * z +
-                   view->offset[2]) >> shift),
-        {{0, 0, 0}},
+                   view->offset[2]) >>
+                  shift),
+        { { 0, 0, 0 } },
     };
 }
 
@@ -77,7 +78,7 @@ static inline bool ow_is_inside(const struct ow_view *view, struct ow_camera_poi
     return p.x <= reach && -p.x <= reach && p.y <= reach && -p.y <= reach;
 }
 
-/* The place on the screen of a point that is inside, 1/16 pixels, rounded to the nearest. */
+/* The place on the screen of a point that is inside, rounded to the nearest. */
 static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
                                                    struct ow_camera_point p)
 {
@@ -92,7 +93,7 @@ static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
     int64_t half = (int64_t)1 << (shift - 1);
     int32_t x = (int32_t)(((int64_t)p.x * factor + half) >> shift);
     int32_t y = (int32_t)(((int64_t)p.y * factor + half) >> shift);
-    return (struct ow_outline_point){8 * view->width + x, 8 * view->height - y};
+    return (struct ow_outline_point){ OW_SUB / 2 * view->width + x, OW_SUB / 2 * view->height - y };
 }
 
 #endif

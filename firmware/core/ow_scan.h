@@ -28,7 +28,7 @@ struct ow_span {
 struct ow_scan_edge {
     int32_t x;       /* first pixel whose centre is right of the edge on the current line */
     uint32_t rest;   /* how far beyond, in 1/whole pixels */
-    uint32_t whole;  /* 16 * height of the edge in 1/16 pixels */
+    uint32_t whole;  /* OW_SUB * height of the edge, ow_sub8 */
     int32_t step;    /* pixels a line */
     uint32_t part;   /* and 1/whole pixels a line */
     int32_t line;    /* the current line */
@@ -51,14 +51,14 @@ struct ow_box {
     int32_t right;
     int32_t line;
     int32_t end_line;
-    bool is_small; /* the outline reaches less than 512 pixels on each axis */
+    bool is_small; /* the outline reaches less than 120 pixels on each axis */
 };
 
 /* Receives spans: line by line, from left to right, at most capacity at a time. */
 struct ow_span_sink {
     struct ow_span *spans;
     uint32_t count;
-    uint32_t capacity; /* at least the box's lines */
+    uint32_t capacity;                       /* at least the box's lines */
     void (*take)(struct ow_span_sink *sink); /* must set count to 0 */
 };
 

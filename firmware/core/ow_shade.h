@@ -13,9 +13,9 @@
 struct ow_shader {
     enum ow_shade shade;
     int32_t ambient_q16;
-    int32_t light_q16[3];     /* intensity (256 is full) that one unit of an i8 normal adds */
-    int32_t towards_q14[3];   /* unit vector to the light, model axes */
-    int32_t halfway_q14[3];   /* Phong: unit vector between light and viewer, model axes */
+    int32_t light_q16[3];   /* intensity (256 is full) that one unit of an i8 normal adds */
+    int32_t towards_q14[3]; /* unit vector to the light, model axes */
+    int32_t halfway_q14[3]; /* Phong: unit vector between light and viewer, model axes */
     int32_t light_q8;
     int32_t specular_q8;
     uint32_t shininess;

@@ -26,7 +26,7 @@ struct ow_surface {
     /* Front to back: a bit for each pixel that nothing has been written to. */
     uint32_t *unlit;
     uint32_t words_in_line;
-    uint32_t lines_open; /* lines with unlit pixels; 0: nothing more can be seen */
+    uint32_t lines_open;   /* lines with unlit pixels; 0: nothing more can be seen */
     uint16_t *open_pixels; /* unlit pixels of each line */
     uint32_t *open_tiles;  /* a bit for each tile that may have any */
 };

@@ -15,7 +15,7 @@
 enum {
     OW_EYE_MAX = 1 << 29,    /* largest magnitude of an eye coordinate, ow_q8: 2,097,152 units */
     OW_SCREEN_MAX = 4096,    /* largest width and height, pixels */
-    OW_GUARD = (1 << 17) - 1 /* projected coordinates stay within this of the screen's centre */
+    OW_GUARD = (1 << 20) - 1 /* projected coordinates stay within this of the screen's centre */
 };
 
 enum ow_projection {
@@ -26,10 +26,10 @@ enum ow_projection {
 /*
  * Camera coordinates of a lattice point v: x = right.(v - eye), y = up.(v - eye),
  * z = forward.(v - eye), exact with 38 fraction bits, then shifted right (floor) by
- * camera_shift so that they fit 31 bits: that is a camera unit. Pixels (4 fraction
- * bits, y down): X = 8*width + x*scale/z, Y = 8*height - y*scale/z, rounded to the
- * nearest; without /z in parallel projection, where the scale counts 1/16 pixels a
- * camera unit. Perspective: scale is the focal length in 1/16 pixels.
+ * camera_shift so that they fit 31 bits: that is a camera unit. Pixels (8 fraction
+ * bits, y down): X = 128*width + x*scale/z, Y = 128*height - y*scale/z, rounded to the
+ * nearest; without /z in parallel projection, where the scale counts 1/256 pixels a
+ * camera unit. Perspective: scale is the focal length in 1/256 pixels.
  */
 struct ow_view {
     ow_q8 eye[3];
@@ -52,9 +52,9 @@ struct ow_camera {
     ow_q8 at[3];  /* a point in the middle of the picture, not the eye; within OW_EYE_MAX */
     ow_q8 up[3];  /* any vector not parallel to the view; its length does not matter */
     enum ow_projection projection;
-    ow_turn fov;     /* perspective: vertical field of view, 1/360 .. 170/360 turn */
-    ow_q8 height;    /* parallel: what the screen's height shows, > 0 */
-    ow_q8 near;      /* perspective: distance of the near plane, > 0; 0: OW_NEAR_DEFAULT */
+    ow_turn fov;  /* perspective: vertical field of view, 1/360 .. 170/360 turn */
+    ow_q8 height; /* parallel: what the screen's height shows, > 0 */
+    ow_q8 near;   /* perspective: distance of the near plane, > 0; 0: OW_NEAR_DEFAULT */
     uint16_t width_pixels;
     uint16_t height_pixels;
 };

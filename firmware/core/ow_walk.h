@@ -55,11 +55,12 @@ struct ow_walk {
     uint32_t nodes_skipped;
     struct ow_walk_skip skip; /* set between begin and the first next; hides NULL: never */
     enum ow_direction direction;
-    bool fronts_only;      /* skip OW_ITEM_REVERSE */
-    bool reject_backs;     /* skip faces that surely look away */
-    int32_t towards[3];    /* the eye, lattice steps; parallel: the direction to it, 20 fraction bits */
-    int32_t from_vertex;   /* mask: all ones if a vertex is to be subtracted from towards */
-    int32_t doubt;         /* a face looks away for sure beyond this */
+    bool fronts_only;  /* skip OW_ITEM_REVERSE */
+    bool reject_backs; /* skip faces that surely look away */
+    int32_t
+        towards[3]; /* the eye, lattice steps; parallel: the direction to it, 20 fraction bits */
+    int32_t from_vertex; /* mask: all ones if a vertex is to be subtracted from towards */
+    int32_t doubt;       /* a face looks away for sure beyond this */
 };
 
 /* Bytes of stack that a walk of this tree needs: one entry a level. */

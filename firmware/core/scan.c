@@ -9,24 +9,24 @@
 
 #include <stdbool.h>
 
-enum { SUB = 16, HALF = 8, SUB_BITS = 4 }; /* 1/16 pixels; a pixel's centre lies at its half */
+enum { SUB = OW_SUB, HALF = OW_SUB / 2 }; /* a pixel's centre lies at its half */
 
-/* Bounds of coordinates: OW_GUARD around a centre of at most 8 * OW_SCREEN_MAX. */
-_Static_assert(2 * (OW_GUARD + 8 * OW_SCREEN_MAX) < 1 << 19, "edges are below 2^19 in each axis");
-_Static_assert(OW_GUARD < 1 << 17, "so x and y differences of one outline are below 2^18");
+/* The largest height and width of an edge: coordinates stay within OW_GUARD of the middle. */
+#define EDGE_MAX (2LL * OW_GUARD)
+_Static_assert(EDGE_MAX *(3 * SUB) < INT32_MAX, "what begin_edge divides fits 32 bits");
 
 /* The first line or pixel whose centre is at or beyond this coordinate. */
-static inline int32_t first_centre(ow_sub4 coordinate)
+static inline int32_t first_centre(ow_sub8 coordinate)
 {
-    return (coordinate - HALF + SUB - 1) >> SUB_BITS;
+    return (coordinate - HALF + SUB - 1) >> OW_SUB_BITS;
 }
 
-static inline ow_sub4 least(ow_sub4 a, ow_sub4 b)
+static inline ow_sub8 least(ow_sub8 a, ow_sub8 b)
 {
     return a < b ? a : b;
 }
 
-static inline ow_sub4 most(ow_sub4 a, ow_sub4 b)
+static inline ow_sub8 most(ow_sub8 a, ow_sub8 b)
 {
     return a > b ? a : b;
 }
@@ -44,10 +44,13 @@ static inline int32_t divide(int32_t n, uint32_t d, uint32_t *rest)
     return quotient;
 }
 
-/* Goes lines further down at once; part and step must be known. */
+enum { SKIP_LINES = 1024 };
+_Static_assert(EDGE_MAX *SKIP_LINES <= UINT32_MAX, "what skip_lines divides fits 32 bits");
+
+/* Goes up to SKIP_LINES lines further down at once; part and step must be known. */
 static void skip_lines(struct ow_scan_edge *edge, uint32_t lines, uint32_t height)
 {
-    uint32_t parts = lines * (edge->part / SUB); /* below 2^14 * 2^18 */
+    uint32_t parts = lines * (edge->part / SUB);
     uint32_t carried = parts / height;
     edge->x += (int32_t)lines * edge->step + (int32_t)carried;
     edge->rest += SUB * (parts - carried * height);
@@ -82,17 +85,19 @@ static inline bool begin_edge(struct ow_scan_edge *edge, struct ow_outline_point
     }
     uint32_t height = (uint32_t)(b.y - a.y);
     int32_t across = b.x - a.x;
-    int32_t down = first * SUB + HALF - a.y; /* 0 .. 15 */
+    int32_t down = first * SUB + HALF - a.y; /* less than a line */
     int32_t x = a.x - HALF;
     edge->whole = height * SUB;
-    /* Pixels right of x's own, rounded up: all terms are below 2^23. */
+    /* Pixels right of x's own, rounded up: three terms below SUB * EDGE_MAX. */
     int32_t beyond = (x & (SUB - 1)) * (int32_t)height + down * across + (int32_t)edge->whole - 1;
-    edge->x = (x >> SUB_BITS) + divide(beyond, edge->whole, &edge->rest);
+    edge->x = (x >> OW_SUB_BITS) + divide(beyond, edge->whole, &edge->rest);
     if (edge->end - first > 1) {
         edge->step = divide(across, height, &edge->part);
         edge->part *= SUB;
-        if (edge->line > first) {
-            skip_lines(edge, (uint32_t)(edge->line - first), height);
+        for (uint32_t lines = (uint32_t)(edge->line - first); lines > 0;) {
+            uint32_t some = lines < SKIP_LINES ? lines : SKIP_LINES;
+            skip_lines(edge, some, height);
+            lines -= some;
         }
     }
     return true;
@@ -106,17 +111,17 @@ static inline void add_span(struct ow_span_sink *sink, int32_t line, int32_t fir
     end = end > box->right ? box->right : end;
     if (first < end) {
         struct ow_span *span = &sink->spans[sink->count++];
-        *span = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
+        *span = (struct ow_span){ (uint16_t)line, (uint16_t)first, (uint16_t)end };
     }
 }
 
 /* One line down: whole pixels and parts, without a branch. */
-#define NEXT_LINE(x, rest, edge)                                                                  \
-    do {                                                                                          \
-        (rest) += (edge).part;                                                                    \
-        uint32_t carry_ = (rest) >= (edge).whole;                                                 \
-        (rest) -= (edge).whole & (0u - carry_);                                                   \
-        (x) += (edge).step + (int32_t)carry_;                                                     \
+#define NEXT_LINE(x, rest, edge)                  \
+    do {                                          \
+        (rest) += (edge).part;                    \
+        uint32_t carry_ = (rest) >= (edge).whole; \
+        (rest) -= (edge).whole & (0u - carry_);   \
+        (x) += (edge).step + (int32_t)carry_;     \
     } while (0)
 
 /*
@@ -146,7 +151,7 @@ static void add_lines(struct ow_scan_edge *left, struct ow_scan_edge *right, enu
         first = first < box_left ? box_left : first;
         end = end > box_right ? box_right : end;
         if (first < end) {
-            *span++ = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
+            *span++ = (struct ow_span){ (uint16_t)line, (uint16_t)first, (uint16_t)end };
         }
         if (++line == stop) {
             break;
@@ -197,8 +202,8 @@ static void scan_chains(const struct ow_outline_point *points, uint32_t count, u
                         struct ow_span_sink *sink)
 {
     int32_t line = box->line;
-    struct chain left = {.points = points, .count = count, .at = top, .backward = false};
-    struct chain right = {.points = points, .count = count, .at = top, .backward = true};
+    struct chain left = { .points = points, .count = count, .at = top, .backward = false };
+    struct chain right = { .points = points, .count = count, .at = top, .backward = true };
     left.edge.end = line;
     right.edge.end = line;
     while (line < box->end_line) {
@@ -343,14 +348,14 @@ struct low_edge {
 
 /* The edge from p down to q on a line that it crosses; pixels are counted from the origin. */
 static inline struct low_edge low_edge(struct ow_outline_point p, struct ow_outline_point q,
-                                       int32_t line, ow_sub4 origin)
+                                       int32_t line, ow_sub8 origin)
 {
     int32_t dx = q.x - p.x;
     int32_t dy = q.y - p.y;
     int32_t down = line * SUB + HALF - p.y;
-    /* (x - 8) / 16 rounded up, which adds 16 - 1/dy. What is crossed lies right of the origin. */
+    /* (x - HALF) / SUB rounded up, which adds SUB - 1/dy. All of it is right of the origin. */
     int32_t place = (p.x - origin + HALF) * dy + down * dx - 1;
-    return (struct low_edge){(uint32_t)place, (uint32_t)(SUB * dy), (uint32_t)(SUB * dx)};
+    return (struct low_edge){ (uint32_t)place, (uint32_t)(SUB * dy), (uint32_t)(SUB * dx) };
 }
 
 static inline struct ow_span *low_lines(struct ow_span *span, struct low_edge *left,
@@ -365,7 +370,7 @@ static inline struct ow_span *low_lines(struct ow_span *span, struct low_edge *l
         first = most(first, box->left);
         end = least(end, box->right);
         if (first < end) {
-            *span++ = (struct ow_span){(uint16_t)line, (uint16_t)first, (uint16_t)end};
+            *span++ = (struct ow_span){ (uint16_t)line, (uint16_t)first, (uint16_t)end };
         }
     }
     return span;
@@ -379,8 +384,8 @@ static void scan_low_triangle(struct ow_outline_point a, struct ow_outline_point
                               struct ow_outline_point c, bool b_is_right, const struct ow_box *box,
                               struct ow_span_sink *sink)
 {
-    int32_t origin_pixel = least(a.x, least(b.x, c.x)) >> SUB_BITS;
-    ow_sub4 origin = origin_pixel * SUB;
+    int32_t origin_pixel = least(a.x, least(b.x, c.x)) >> OW_SUB_BITS;
+    ow_sub8 origin = origin_pixel * SUB;
     int32_t line = box->line;
     int32_t bend = least(first_centre(b.y), box->end_line);
     struct low_edge whole = low_edge(a, c, line, origin);
@@ -401,8 +406,8 @@ static void scan_low_triangle(struct ow_outline_point a, struct ow_outline_point
 
 /* One edge from top to bottom on one side, two on the other. a, b, c from top to bottom. */
 static void scan_high_triangle(struct ow_outline_point a, struct ow_outline_point b,
-                               struct ow_outline_point c, bool b_is_right,
-                               const struct ow_box *box, struct ow_span_sink *sink)
+                               struct ow_outline_point c, bool b_is_right, const struct ow_box *box,
+                               struct ow_span_sink *sink)
 {
     int32_t line = box->line;
     struct ow_scan_edge whole;
@@ -421,8 +426,9 @@ static void scan_high_triangle(struct ow_outline_point a, struct ow_outline_poin
 
 enum {
     LOW_LINES = 16, /* up to here dividing on each line is cheaper than setting up steps */
-    LOW_REACH = 512 * SUB /* 1/16 pixels: so a low edge's place is below 2^28 */
+    LOW_REACH = 120 * SUB
 };
+_Static_assert(2LL * LOW_REACH * (LOW_REACH + SUB) < INT32_MAX, "a low edge's place fits 32 bits");
 
 /* Triangles are most of most models, and most of them are small. */
 static void scan_triangle(const struct ow_outline_point *p, enum ow_winding rule,
@@ -447,8 +453,8 @@ static void scan_triangle(const struct ow_outline_point *p, enum ow_winding rule
 }
 
 static void scan_outline(const struct ow_outline_point *points, uint32_t count,
-                         enum ow_winding rule, const struct ow_box *box,
-                         struct ow_scan_edge *edges, struct ow_span_sink *sink)
+                         enum ow_winding rule, const struct ow_box *box, struct ow_scan_edge *edges,
+                         struct ow_span_sink *sink)
 {
     uint32_t top = 0;
     uint32_t bottom = 0;
@@ -467,10 +473,10 @@ bool ow_outline_box(const struct ow_outline_point *points, uint32_t count,
                     const struct ow_window *window, struct ow_box *box)
 {
     /* A triangle's bounds without a loop: this is asked of every face. */
-    ow_sub4 min_x = least(points[0].x, least(points[1].x, points[2].x));
-    ow_sub4 max_x = most(points[0].x, most(points[1].x, points[2].x));
-    ow_sub4 min_y = least(points[0].y, least(points[1].y, points[2].y));
-    ow_sub4 max_y = most(points[0].y, most(points[1].y, points[2].y));
+    ow_sub8 min_x = least(points[0].x, least(points[1].x, points[2].x));
+    ow_sub8 max_x = most(points[0].x, most(points[1].x, points[2].x));
+    ow_sub8 min_y = least(points[0].y, least(points[1].y, points[2].y));
+    ow_sub8 max_y = most(points[0].y, most(points[1].y, points[2].y));
     for (uint32_t i = 3; i < count; i++) {
         min_x = least(min_x, points[i].x);
         max_x = most(max_x, points[i].x);

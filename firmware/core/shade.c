@@ -9,9 +9,9 @@
 #include "ow_read.h"
 
 enum {
-    FULL = 256,            /* intensity that shows a colour as it is */
+    FULL = 256,             /* intensity that shows a colour as it is */
     PER_NORMAL_Q22 = 33026, /* 2^22 / 127: normals are 127 long */
-    NORMAL_BITS = 6        /* Phong's normals: 64 times the stored ones */
+    NORMAL_BITS = 6         /* Phong's normals: 64 times the stored ones */
 };
 
 /* A direction given right, up, towards the viewer, in model axes. */
@@ -29,8 +29,8 @@ static uint32_t reciprocal_root(uint32_t x)
 {
     uint32_t y = 70900 - (x >> 15) - (x >> 17); /* 2^15 .. 2^16, within a tenth */
     for (int i = 0; i < 2; i++) {
-        uint32_t square = (uint32_t)(((uint64_t)y * y) >> 15);           /* 2^15 .. 2^17 */
-        uint32_t product = (uint32_t)(((uint64_t)square * x) >> 30);     /* near 2^15 */
+        uint32_t square = (uint32_t)(((uint64_t)y * y) >> 15);       /* 2^15 .. 2^17 */
+        uint32_t product = (uint32_t)(((uint64_t)square * x) >> 30); /* near 2^15 */
         y = (uint32_t)(((uint64_t)y * (3 * 32768 - product)) >> 16);
     }
     return y;
@@ -55,14 +55,15 @@ static void make_unit(int32_t v[3])
     int32_t root = (int32_t)reciprocal_root(squares); /* 2^15 * 2^15 / length */
     for (int i = 0; i < 3; i++) {
         int64_t scaled = (int64_t)v[i] * root;
-        v[i] = (int32_t)(shift < 0 ? scaled >> (16 - shift) : (scaled * ((int64_t)1 << shift)) >> 16);
+        v[i] =
+            (int32_t)(shift < 0 ? scaled >> (16 - shift) : (scaled * ((int64_t)1 << shift)) >> 16);
     }
 }
 
 void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
                     const struct ow_view *view)
 {
-    static const int32_t viewer_q14[3] = {0, 0, 1 << 14};
+    static const int32_t viewer_q14[3] = { 0, 0, 1 << 14 };
     shader->shade = look->shade;
     shader->ambient_q16 = look->ambient_q8 * 65536;
     shader->light_q8 = look->light.intensity_q8;
@@ -74,9 +75,10 @@ void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
         shader->towards_q14[i] = look->light.direction_q14[i];
     }
     if (!look->light.in_model_space) {
-        to_model(shader->towards_q14, (const int32_t[3]){look->light.direction_q14[0],
-                                                         look->light.direction_q14[1],
-                                                         look->light.direction_q14[2]}, view);
+        to_model(shader->towards_q14,
+                 (const int32_t[3]){ look->light.direction_q14[0], look->light.direction_q14[1],
+                                     look->light.direction_q14[2] },
+                 view);
     }
     for (int i = 0; i < 3; i++) {
         shader->halfway_q14[i] = (shader->towards_q14[i] + viewer[i]) / 2;
@@ -138,7 +140,7 @@ struct ow_corner_light ow_shade_corner(const struct ow_shader *shader, const str
                                        uint32_t vertex, bool reverse)
 {
     uint32_t at = tree->normals_at + vertex * OW_NORMAL_BYTES;
-    struct ow_corner_light light = {{0, 0, 0}};
+    struct ow_corner_light light = { { 0, 0, 0 } };
     if (shader->shade == OW_SHADE_GOURAUD) {
         light.part[0] = intensity_q16(shader, tree->bytes, at, reverse);
         return light;
@@ -164,7 +166,7 @@ static uint32_t add_white(uint32_t colour, uint32_t shift, uint32_t white)
 static uint32_t shade_phong(const struct ow_shader *shader, uint32_t colour,
                             const struct ow_corner_light *light)
 {
-    int32_t normal[3] = {light->part[0], light->part[1], light->part[2]};
+    int32_t normal[3] = { light->part[0], light->part[1], light->part[2] };
     make_unit(normal);
     int32_t cosine = dot_q14(normal, shader->towards_q14);
     int32_t intensity = shader->ambient_q16 >> 16;

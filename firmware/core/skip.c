@@ -38,7 +38,7 @@ static uint32_t over_scale_q16(uint32_t value, struct ow_scale scale)
 
 void ow_frustum_make(struct ow_frustum *frustum, const struct ow_view *view)
 {
-    const uint32_t half[2] = {8u * view->width, 8u * view->height};
+    const uint32_t half[2] = { OW_SUB / 2u * view->width, OW_SUB / 2u * view->height };
     frustum->view = view;
     for (int i = 0; i < 2; i++) {
         uint64_t tangent = over_scale_q16(half[i], view->scale) + 1;
@@ -57,28 +57,28 @@ struct sphere {
 static struct sphere to_camera(const struct ow_view *view, const struct ow_bounds *bounds)
 {
     uint32_t shift = view->camera_shift - 8u;
-    int64_t sums[3] = {view->offset[0], view->offset[1], view->offset[2]};
+    int64_t sums[3] = { view->offset[0], view->offset[1], view->offset[2] };
     for (int i = 0; i < 3; i++) {
         sums[0] += (int64_t)view->right[i] * bounds->centre[i];
         sums[1] += (int64_t)view->up[i] * bounds->centre[i];
         sums[2] += (int64_t)view->forward[i] * bounds->centre[i];
     }
     int64_t radius = ((int64_t)(bounds->radius + SLACK) << 30 >> shift) + 1;
-    return (struct sphere){{sums[0] >> shift, sums[1] >> shift}, sums[2] >> shift, radius};
+    return (struct sphere){ { sums[0] >> shift, sums[1] >> shift }, sums[2] >> shift, radius };
 }
 
-/* Parallel: the screen's place of a camera coordinate, 1/16 pixels from the middle. */
+/* Parallel: the screen's place of a camera coordinate, ow_sub8 from the middle. */
 static int64_t to_pixels(const struct ow_view *view, int64_t along)
 {
     return (along * view->scale.mantissa) >> view->scale.exponent;
 }
 
-/* 1/16 pixels from the middle, outwards rounded, to the first and end pixel of an axis. */
+/* ow_sub8 from the middle, outwards rounded, to the first and end pixel of an axis. */
 static void to_range(int64_t low, int64_t high, int32_t centre, int32_t least, int32_t end,
                      int32_t *first_pixel, int32_t *end_pixel)
 {
-    int64_t first = ((low + centre) >> 4) - 1;
-    int64_t last = ((high + centre) >> 4) + 2;
+    int64_t first = ((low + centre) >> OW_SUB_BITS) - 1;
+    int64_t last = ((high + centre) >> OW_SUB_BITS) + 2;
     *first_pixel = first < least ? least : first > end ? end : (int32_t)first;
     *end_pixel = last > end ? end : last < least ? least : (int32_t)last;
 }
@@ -99,7 +99,7 @@ static void perspective_range(const struct ow_view *view, int64_t along, const s
     }
     int64_t from = along - s->radius;
     int64_t to = along + s->radius;
-    struct ow_camera_point p = {.x = (int32_t)from, .y = (int32_t)to, .z = (int32_t)near};
+    struct ow_camera_point p = { .x = (int32_t)from, .y = (int32_t)to, .z = (int32_t)near };
     struct ow_camera_point q = p;
     q.z = far > 1 << 30 ? 1 << 30 : (int32_t)far;
     /* Whichever side of the axis an end lies on, the nearer or the farther depth is outermost. */
@@ -108,8 +108,8 @@ static void perspective_range(const struct ow_view *view, int64_t along, const s
     }
     struct ow_outline_point a = ow_to_screen(view, from < 0 ? p : q);
     struct ow_outline_point b = ow_to_screen(view, to > 0 ? p : q);
-    *low = a.x - 8 * view->width - 1;
-    *high = 8 * view->height - b.y + 1;
+    *low = a.x - OW_SUB / 2 * view->width - 1;
+    *high = OW_SUB / 2 * view->height - b.y + 1;
 }
 
 bool ow_sphere_box(const struct ow_frustum *frustum, const struct ow_bounds *bounds,
@@ -135,9 +135,9 @@ bool ow_sphere_box(const struct ow_frustum *frustum, const struct ow_bounds *bou
             high[i] = to_pixels(view, s.along[i] + s.radius) + 1;
         }
     }
-    to_range(low[0], high[0], 8 * view->width, 0, window->width, &box->left, &box->right);
-    to_range(-high[1], -low[1], 8 * view->height, window->first_line, window->end_line, &box->line,
-             &box->end_line);
+    to_range(low[0], high[0], OW_SUB / 2 * view->width, 0, window->width, &box->left, &box->right);
+    to_range(-high[1], -low[1], OW_SUB / 2 * view->height, window->first_line, window->end_line,
+             &box->line, &box->end_line);
     return box->left < box->right && box->line < box->end_line;
 }
 

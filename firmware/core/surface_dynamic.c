@@ -116,7 +116,8 @@ static bool hides(const struct ow_surface *surface, const struct ow_box *box)
     uint32_t column = (uint32_t)box->left / OW_TILE;
     uint32_t last_column = ((uint32_t)box->right - 1) / OW_TILE;
     if (column == last_column && end_row - row <= OW_TILE) { /* small: exactly */
-        uint32_t mask = bits_from((uint32_t)box->left & 31) & bits_to(((uint32_t)box->right - 1) & 31);
+        uint32_t mask =
+            bits_from((uint32_t)box->left & 31) & bits_to(((uint32_t)box->right - 1) & 31);
         return column_is_lit(surface, column, row, end_row, mask);
     }
     uint32_t last_tile_row = (end_row - 1) >> OW_TILE_BITS;
@@ -156,8 +157,8 @@ static void take(struct ow_surface *surface, const struct ow_span *spans, uint32
             continue;
         }
         uint32_t before = surface->pixels_written;
-        write_unlit(surface, span->line, surface->unlit + row * surface->words_in_line,
-                    span->first, span->end);
+        write_unlit(surface, span->line, surface->unlit + row * surface->words_in_line, span->first,
+                    span->end);
         open -= surface->pixels_written - before;
         surface->open_pixels[row] = (uint16_t)open;
         if (open == 0) {

@@ -7,7 +7,7 @@
 enum {
     FOV_MIN_DEGREES = 1,
     FOV_MAX_DEGREES = 170,
-    GUARD_MARGIN = 64 /* 4 pixels: what rounding may add to a clipped point, by far */
+    GUARD_MARGIN = 4 * OW_SUB /* 4 pixels: what rounding may add to a clipped point, by far */
 };
 
 #define DEGREE 11930464u /* 2^32 / 360, rounded down */
@@ -105,7 +105,7 @@ static void make_units(struct ow_view *view)
     }
     farthest += (OW_LATTICE_MAX + 1) << 8;
     view->camera_shift = (uint8_t)(32 - ow_leading_zeros(2 * farthest)); /* sqrt(3) < 2 */
-    const ow_q30 *axes[3] = {view->right, view->up, view->forward};
+    const ow_q30 *axes[3] = { view->right, view->up, view->forward };
     for (int a = 0; a < 3; a++) {
         int64_t sum = 0;
         for (int i = 0; i < 3; i++) {
@@ -129,7 +129,8 @@ static void make_perspective(struct ow_view *view, const struct ow_camera *camer
 {
     ow_turn half = camera->fov / 2;
     uint64_t cosine = (uint64_t)ow_cos(half);
-    view->scale = ow_scale_of(cosine * 8 * camera->height_pixels, (uint64_t)ow_sin(half));
+    view->scale =
+        ow_scale_of(cosine * (OW_SUB / 2) * camera->height_pixels, (uint64_t)ow_sin(half));
     struct ow_scale tangent = ow_scale_of(OW_GUARD - GUARD_MARGIN, view->scale.mantissa);
     view->limit = clamp_scale(tangent, 16 + view->scale.exponent);
     ow_q8 near = camera->near ? camera->near : OW_NEAR_DEFAULT;
@@ -142,7 +143,7 @@ static void make_perspective(struct ow_view *view, const struct ow_camera *camer
 
 static void make_parallel(struct ow_view *view, const struct ow_camera *camera)
 {
-    view->scale = ow_scale_of((uint64_t)16 * camera->height_pixels, (uint64_t)camera->height);
+    view->scale = ow_scale_of((uint64_t)OW_SUB * camera->height_pixels, (uint64_t)camera->height);
     view->scale.exponent += 30 - view->camera_shift;
     struct ow_scale reach = ow_scale_of(OW_GUARD - GUARD_MARGIN, view->scale.mantissa);
     view->limit = clamp_scale(reach, view->scale.exponent);
@@ -189,8 +190,8 @@ void ow_camera_orbit(struct ow_camera *camera, const struct ow_tree *tree, ow_tu
     /* 2.5 times half the diagonal, 8 fraction bits: sqrt(squares) * 320. */
     int64_t radius = ow_sqrt64(squares * (320 * 320));
     int64_t across = (radius * ow_cos(elevation)) >> 30;
-    int64_t arm[3] = {(across * ow_sin(azimuth)) >> 30, (radius * ow_sin(elevation)) >> 30,
-                      (across * ow_cos(azimuth)) >> 30};
+    int64_t arm[3] = { (across * ow_sin(azimuth)) >> 30, (radius * ow_sin(elevation)) >> 30,
+                       (across * ow_cos(azimuth)) >> 30 };
     for (int i = 0; i < 3; i++) {
         camera->at[i] = (tree->box_min[i] + tree->box_max[i]) * 128;
         camera->eye[i] = camera->at[i] + (ow_q8)arm[i];

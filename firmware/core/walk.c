@@ -18,7 +18,8 @@ enum {
     SECOND_IS_BACK = 1 << 28,
     PENDING = PENDING_COPLANAR | PENDING_SECOND
 };
-_Static_assert((int)OW_NODE_MAX_ITEMS < (int)SECOND_IS_BACK, "a run's length never looks like a mark");
+_Static_assert((int)OW_NODE_MAX_ITEMS < (int)SECOND_IS_BACK,
+               "a run's length never looks like a mark");
 
 uint32_t ow_walk_stack_bytes(const struct ow_tree *tree)
 {
@@ -114,7 +115,7 @@ static void run_child(struct ow_walk *walk, uint32_t children_at, uint32_t child
 
 static void push(struct ow_walk *walk, uint32_t at, uint32_t left)
 {
-    walk->stack[walk->entries++] = (struct ow_walk_entry){at, left};
+    walk->stack[walk->entries++] = (struct ow_walk_entry){ at, left };
 }
 
 static void enter(struct ow_walk *walk, uint32_t at)
@@ -152,7 +153,7 @@ enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
     walk->entries = 0;
     walk->faces_met = 0;
     walk->nodes_skipped = 0;
-    walk->skip = (struct ow_walk_skip){NULL, NULL};
+    walk->skip = (struct ow_walk_skip){ NULL, NULL };
     walk->direction = direction;
     walk->fronts_only = cull == OW_CULL_BACK;
     walk->reject_backs = !outline_decides;

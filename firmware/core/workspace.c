@@ -38,7 +38,7 @@ static uint32_t cache_entries(const struct ow_tree *tree, const struct ow_worksp
 static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree,
                       const struct ow_workspace_config *config, void *memory)
 {
-    struct cutter cutter = {memory, 0};
+    struct cutter cutter = { memory, 0 };
     uint32_t capacity = outline_capacity(tree);
     uint32_t entries = cache_entries(tree, config);
     uint32_t words = (config->width + 31u) / 32;

@@ -245,27 +245,35 @@ static void try_cuts(struct search *search, uint32_t id)
     }
 }
 
+/* Points of one shape's outline near the pixel. */
+static bool strip_along(const struct search *search, const struct shape *s)
+{
+    const struct spot *p = search->scene->spots + s->first;
+    double reach = s->facing ? 1 : 1.0 / 8;
+    const double low[2] = { search->x - reach, search->y - reach };
+    const double high[2] = { search->x + reach, search->y + reach };
+    for (uint32_t i = 0, j = s->count - 1; i < s->count; j = i++) {
+        double range[2];
+        if (!clip_line(p[j], p[i], low, high, range)) {
+            continue;
+        }
+        for (int k = 0; k <= 16; k++) {
+            double t = range[0] + (range[1] - range[0]) * k / 16;
+            if (strip_at(search, s, NULL, p[j].x + t * (p[i].x - p[j].x),
+                         p[j].y + t * (p[i].y - p[j].y))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static void try_strip(struct search *search, uint32_t id)
 {
     const struct scene *scene = search->scene;
-    const double low[2] = { search->x - 1, search->y - 1 }, high[2] = { search->x + 1,
-                                                                        search->y + 1 };
     for (uint32_t n = scene->id_first[id]; n < scene->id_first[id + 1]; n++) {
-        const struct shape *s = &scene->shapes[scene->id_shapes[n]];
-        const struct spot *p = scene->spots + s->first;
-        for (uint32_t i = 0, j = s->count - 1; s->facing && i < s->count; j = i++) {
-            double range[2];
-            if (!clip_line(p[j], p[i], low, high, range)) {
-                continue;
-            }
-            for (int k = 0; k <= 16; k++) {
-                double t = range[0] + (range[1] - range[0]) * k / 16;
-                if (strip_at(search, s, NULL, p[j].x + t * (p[i].x - p[j].x),
-                             p[j].y + t * (p[i].y - p[j].y))) {
-                    search->best = STRIP;
-                    return;
-                }
-            }
+        if (strip_along(search, &scene->shapes[scene->id_shapes[n]])) {
+            search->best = STRIP;
         }
     }
 }

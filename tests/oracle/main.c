@@ -25,7 +25,7 @@
  *   whichever is more, and the corners' own distance from a common plane, which
  *   is 0 for triangles. "Nearer by" is measured along the view (counted as tie),
  *   else along the normal of one of the two polygons (counted as slant). s must
- *   face the eye, unless its outline is so thin that rounding to 1/16 pixel could
+ *   face the eye, unless its outline is so thin that rounding to 1/256 pixel could
  *   turn it round. Points are tried on a grid over the part of s in the window
  *   and along its outline, 25, then 289, then 4225 of them. A pixel is never
  *   called right without a witness; it is called wrong when none was found.

@@ -71,7 +71,7 @@ struct shape {
     double offset;     /* normal.p + offset = 0 */
     double z_min, z_max;
     double x_min, x_max, y_min, y_max;
-    bool facing; /* shown: by its side, or because rounding to 1/16 pixel could turn it round */
+    bool facing; /* shown: by its side, or because rounding to 1/256 pixel could turn it round */
     bool thin;   /* so thin that rounding could turn it round */
     uint32_t polygon;
 };

@@ -61,7 +61,7 @@ static struct camera camera_of(const cJSON *v)
     const cJSON *scale = cJSON_GetObjectItemCaseSensitive(v, "scale");
     double mantissa = number(scale ? scale : v, scale ? "mantissa" : "scale_mantissa");
     double exponent = number(scale ? scale : v, scale ? "exponent" : "scale_exponent");
-    c.focal = ldexp(mantissa, -(int)exponent) / 16;
+    c.focal = ldexp(mantissa, -(int)exponent) / 256;
     c.near_z = number(v, "near_z") * unit;
     c.width = (uint32_t)number(v, "width");
     c.height = (uint32_t)number(v, "height");

@@ -97,7 +97,7 @@ static void camera_points_are_exact_but_for_the_last_unit(void **state)
     }
 }
 
-/* To the nearest 1/16 pixel, and what a camera unit and the reciprocal can add to that. */
+/* To the nearest 1/256 pixel, and what a camera unit and the reciprocal can add to that. */
 static void screen_points_are_rounded_to_the_nearest(void **state)
 {
     (void)state;
@@ -254,7 +254,8 @@ static void new_vertices_lie_on_their_edge(void **state)
             double t = ((double)p[k].z - view.near_z) / ((double)p[k].z - p[2].z);
             double x = p[k].x + t * ((double)p[2].x - p[k].x);
             double y = p[k].y + t * ((double)p[2].y - p[k].y);
-            struct ow_camera_point due = { (int32_t)lround(x), (int32_t)lround(y), view.near_z };
+            struct ow_camera_point due = { .x = (int32_t)lround(x), .y = (int32_t)lround(y),
+                                           .z = view.near_z };
             bool found = !ow_is_inside(&view, p[k]) || !ow_is_inside(&view, due);
             for (uint32_t i = 0; i < out.count && !found; i++) {
                 found = out.points[i].z == view.near_z && fabs(out.points[i].x - x) <= 4 &&

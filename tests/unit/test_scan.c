@@ -91,7 +91,7 @@ static void clear(struct canvas *canvas)
 static int winding_at(const struct ow_outline_point *points, uint32_t count, int32_t column,
                       int32_t line)
 {
-    int64_t x = 16 * column + 8, y = 16 * line + 8;
+    int64_t x = OW_SUB * column + OW_SUB / 2, y = OW_SUB * line + OW_SUB / 2;
     int winding = 0;
     for (uint32_t i = 0; i < count; i++) {
         struct ow_outline_point a = points[i], b = points[(i + 1) % count];
@@ -253,8 +253,8 @@ static void make_grid(struct ow_outline_point grid[DOWN + 1][ACROSS + 1], int ji
         for (int x = 0; x <= ACROSS; x++) {
             bool border = x == 0 || y == 0 || x == ACROSS || y == DOWN;
             int by = border ? 0 : jitter;
-            grid[y][x].x = 16 * WIDTH * x / ACROSS + random_in(-by, by);
-            grid[y][x].y = 16 * HEIGHT * y / DOWN + random_in(-by, by);
+            grid[y][x].x = OW_SUB * WIDTH * x / ACROSS + random_in(-by, by);
+            grid[y][x].y = OW_SUB * HEIGHT * y / DOWN + random_in(-by, by);
         }
     }
 }

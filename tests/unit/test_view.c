@@ -139,7 +139,7 @@ static void units_and_scale_are_as_documented(void **state)
         assert_true(sqrt(3) * far / unit < 2147483647.0);
         assert_int_equal(memcmp(view.eye, camera.eye, sizeof view.eye), 0);
         if (view.projection == OW_PARALLEL) {
-            double due = 16.0 * camera.height_pixels / (camera.height / 256.0);
+            double due = 256.0 * camera.height_pixels / (camera.height / 256.0);
             assert_true(fabs(scale / unit / due - 1) < 1e-8);
         } else {
             double half = pi * camera.fov / 4294967296.0;

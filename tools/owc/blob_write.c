@@ -269,7 +269,7 @@ static void put_plane(struct layout *l, const struct plane *plane)
 {
     uint64_t d = (uint64_t)plane->d;
     for (int k = 0; k < 3; k++) {
-        uint32_t high = (uint32_t)(d >> (32 + 8 * k)) & 255;
+        uint32_t high = k < 2 ? (uint32_t)(d >> (32 + 8 * k)) & 255 : 0; /* d has 48 bits */
         put32(l, ((uint32_t)plane->n[k] & 0xFFFFFF) | high << 24);
     }
     put32(l, (uint32_t)d);

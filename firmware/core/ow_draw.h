@@ -17,7 +17,8 @@
 
 enum ow_order {
     OW_BACK_TO_FRONT, /* painter's surface: overwrite [FKN80] */
-    OW_FRONT_TO_BACK  /* dynamic screen: each pixel written once [GC91] */
+    OW_FRONT_TO_BACK, /* dynamic screen: each pixel written once [GC91] */
+    OW_SCAN_LINE      /* priority scan line: one line at a time, no frame buffer [FKN80] */
 };
 
 enum ow_shade {
@@ -62,9 +63,10 @@ struct ow_stats {
     uint32_t polygons_painted; /* faces of which at least one pixel was written */
     uint32_t pixels_written;   /* by the model */
     uint32_t pixels_background;
-    uint32_t spans;            /* runs of pixels written by the model */
-    uint32_t nodes_skipped;    /* bounded nodes out of view, facing away or covered */
-    uint32_t polygons_dropped; /* outlines that clipping made too long for the workspace */
+    uint32_t spans;             /* runs of pixels written by the model */
+    uint32_t nodes_skipped;     /* bounded nodes out of view, facing away or covered */
+    uint32_t polygons_unlisted; /* scan line order: no room in the list; lines then walk anew */
+    uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
 };
 
 struct ow_workspace_config {
@@ -72,6 +74,12 @@ struct ow_workspace_config {
     uint16_t lines; /* most lines of a band */
     /* Entries of the vertex cache, a power of two or 0: one for every vertex. 12 bytes each. */
     uint32_t cached_vertices;
+    /*
+     * Scan line order: most faces of a frame that can be listed, 16 bytes each and 4 a line of
+     * height; ow_listed_faces_max() is always enough. 0: that order is not used.
+     */
+    uint32_t listed_faces;
+    uint16_t height; /* scan line order: most lines of a view */
 };
 
 /* Private to the core, here so that the caller can place it. */
@@ -87,7 +95,11 @@ struct ow_workspace {
     uint32_t *unlit;       /* front to back: a bit a pixel */
     uint16_t *open_pixels; /* front to back: unlit pixels of each line */
     uint32_t *open_tiles;  /* front to back: a bit for each tile that may have unlit pixels */
-    uint32_t cache_mask;   /* entries - 1, or all ones */
+    struct ow_listed_face *listed;
+    uint32_t *line_heads;
+    uint32_t listed_capacity;
+    uint32_t listed_height;
+    uint32_t cache_mask; /* entries - 1, or all ones */
     uint32_t cache_entries;
     uint32_t capacity; /* points of an outline after clipping */
     uint32_t width;
@@ -115,5 +127,20 @@ enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct o
 enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
                        const struct ow_look *look, const struct ow_target *target,
                        struct ow_workspace *workspace, struct ow_stats *stats);
+
+/*
+ * Scan line order in its own right, for panels that take lines: the tree is
+ * walked once, then any number of bands are drawn, each below the last one.
+ * tree, view and look must stay until the last. ow_draw with OW_SCAN_LINE does
+ * both for one band. Errors: as ow_draw, and OW_ARGUMENT for a workspace
+ * without room for a list or a band that is not below the last.
+ */
+enum ow_status ow_scan_lines_begin(const struct ow_tree *tree, const struct ow_view *view,
+                                   const struct ow_look *look, struct ow_workspace *workspace);
+enum ow_status ow_scan_lines_draw(struct ow_workspace *workspace, const struct ow_target *target,
+                                  struct ow_stats *stats);
+
+/* A capacity for ow_workspace_config.listed_faces that never runs out. */
+uint32_t ow_listed_faces_max(const struct ow_tree *tree);
 
 #endif

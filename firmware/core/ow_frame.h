@@ -13,6 +13,15 @@
 #include "ow_skip.h"
 #include "ow_surface.h"
 
+/* Scan line order: a face that touches the view; its number is its place in the list. */
+struct ow_listed_face {
+    uint32_t at;
+    uint32_t next; /* face of the line's list or of those at hand */
+    uint16_t end_line;
+    bool reverse;
+    bool painted;
+};
+
 /* What one call of ow_draw works with. */
 struct ow_frame {
     struct ow_span_sink sink; /* first: the frame is found from its sink */
@@ -32,7 +41,37 @@ struct ow_frame {
     enum ow_winding rule;
     uint32_t tag; /* the stamp in bits 24-31 */
     uint32_t dropped;
+    uint32_t painted;    /* faces of which a pixel was written */
+    uint32_t background; /* packed */
+    const struct ow_look *look;
+    /* Scan line order. */
+    struct ow_target line; /* the line being drawn */
+    uint32_t lines_done;   /* the first line not drawn or passed over */
+    uint32_t listed;       /* faces in the list */
+    uint32_t unlisted;     /* faces that found no room in it */
+    uint32_t at_hand;      /* the nearest listed face that touches the line */
     struct ow_surface surface;
 };
+
+/*
+ * Makes frame->face's outline in workspace->outline and the pixels of the
+ * window that it may hold. False if there are none.
+ */
+bool ow_face_outline(struct ow_frame *frame, struct ow_box *box);
+
+/* Draws frame->face within the window. True if a pixel was written. */
+bool ow_draw_face(struct ow_frame *frame);
+
+/* The frame's sink: shades the face, unless that was done, and gives its spans to the surface. */
+void ow_paint_spans(struct ow_span_sink *sink);
+
+/* What ow_draw begins with, in two parts; see draw.c. */
+enum ow_status ow_frame_begin(struct ow_workspace *workspace, const struct ow_tree *tree,
+                              const struct ow_view *view, const struct ow_look *look,
+                              enum ow_direction direction);
+void ow_frame_target(struct ow_frame *frame, const struct ow_surface_kind *kind,
+                     const struct ow_target *target);
+enum ow_status ow_frame_check(const struct ow_frame *frame, const struct ow_target *target);
+enum ow_status ow_frame_report(const struct ow_frame *frame, struct ow_stats *stats);
 
 #endif

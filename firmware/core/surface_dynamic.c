@@ -180,7 +180,7 @@ static void end(struct ow_surface *surface, uint32_t background)
                         surface->unlit + row * surface->words_in_line, 0, surface->width);
         }
     }
-    surface->pixels_background = surface->pixels_written - pixels;
+    surface->pixels_background += surface->pixels_written - pixels;
     surface->pixels_written = pixels;
     surface->spans_written = spans;
 }

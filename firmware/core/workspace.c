@@ -57,6 +57,11 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     uint32_t tile_rows = ow_tiles(config->lines);
     workspace->open_tiles = cut(&cutter, (uint64_t)ow_tile_words(config->width) * tile_rows,
                                 sizeof *workspace->open_tiles);
+    workspace->listed = cut(&cutter, config->listed_faces, sizeof *workspace->listed);
+    workspace->line_heads =
+        cut(&cutter, config->listed_faces > 0 ? config->height : 0, sizeof *workspace->line_heads);
+    workspace->listed_capacity = config->listed_faces;
+    workspace->listed_height = config->height;
     workspace->cache_entries = entries;
     workspace->cache_mask = entries < tree->vertex_count ? entries - 1 : 0xFFFFFFFFu;
     workspace->capacity = capacity;
@@ -68,7 +73,7 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
 static bool config_is_valid(const struct ow_workspace_config *config)
 {
     return config->width >= 1 && config->width <= OW_SCREEN_MAX && config->lines >= 1 &&
-           config->lines <= OW_SCREEN_MAX &&
+           config->lines <= OW_SCREEN_MAX && config->height <= OW_SCREEN_MAX &&
            (config->cached_vertices & (config->cached_vertices - 1)) == 0;
 }
 

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * One face on its way to the surface: its corners are looked up or clipped,
+ * its outline is scanned, and it is shaded when its first spans come.
+ */
+#include "ow_clip.h"
+#include "ow_frame.h"
+#include "ow_project.h"
+
+static inline uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
+{
+    uint32_t first = at + tree->corners_in_record;
+    return (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(tree->bytes, first + 4 * i)
+                                           : ow_read_u16(tree->bytes, first + 2 * i);
+}
+
+/* Computes a vertex's place on the screen into its entry of the cache. */
+static void project_vertex(const struct ow_frame *frame, uint32_t vertex,
+                           struct ow_cached_vertex *cached)
+{
+    struct ow_camera_point p = ow_to_camera(frame->tree, frame->view, vertex);
+    cached->tag = frame->tag | vertex;
+    if (ow_is_inside(frame->view, p)) {
+        cached->point = ow_to_screen(frame->view, p);
+    } else {
+        cached->point.x = OW_CLIP_FIRST;
+    }
+}
+
+/* The face's outline by way of the clipper. Returns its count of points, 0 for none. */
+static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face, uint32_t corners)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    bool smooth = ow_shade_is_smooth(frame->shader.shade);
+    for (uint32_t i = 0; i < corners; i++) {
+        uint32_t from = face->reverse ? corners - 1 - i : i;
+        uint32_t vertex = corner(frame->tree, face->at, from);
+        workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
+        if (smooth) {
+            workspace->clip[0][i].light =
+                ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse);
+        }
+    }
+    uint32_t which;
+    bool overflow = false;
+    uint32_t count =
+        ow_clip(frame->view, workspace->clip, corners, workspace->capacity, &which, &overflow);
+    frame->dropped += overflow;
+    for (uint32_t i = 0; i < count; i++) {
+        workspace->outline[i] = ow_to_screen(frame->view, workspace->clip[which][i]);
+        workspace->corner_lights[i] = workspace->clip[which][i].light;
+    }
+    frame->clipped = true;
+    return count < 3 ? 0 : count;
+}
+
+/* Looks up all corners, last first if reverse. False if one must be clipped first. */
+static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *corner_bytes,
+                                   uint32_t corners, bool wide, bool reverse)
+{
+    struct ow_cached_vertex *cache = frame->workspace->cache;
+    const uint32_t mask = frame->workspace->cache_mask;
+    const uint32_t tag = frame->tag;
+    const int32_t step = reverse ? -1 : 1;
+    struct ow_outline_point *out = frame->workspace->outline + (reverse ? corners - 1 : 0);
+    for (uint32_t i = 0; i < corners; i++, out += step) {
+        uint32_t vertex =
+            wide ? ow_read_u32(corner_bytes, 4 * i) : ow_read_u16(corner_bytes, 2 * i);
+        struct ow_cached_vertex *cached = &cache[vertex & mask];
+        if (cached->tag != (tag | vertex)) {
+            project_vertex(frame, vertex, cached);
+        }
+        struct ow_outline_point point = cached->point;
+        if (point.x == OW_CLIP_FIRST) {
+            return false;
+        }
+        *out = point;
+    }
+    return true;
+}
+
+/* The face's outline in workspace->outline. Returns its count of points, 0 for none. */
+static uint32_t project_outline(struct ow_frame *frame, const struct ow_face *face)
+{
+    const struct ow_tree *tree = frame->tree;
+    const uint8_t *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
+    uint32_t corners = ow_read_u8(tree->bytes, face->at);
+    bool ready = (tree->flags & OW_TREE_INDEX32)
+                     ? look_up_corners(frame, corner_bytes, corners, true, face->reverse)
+                     : look_up_corners(frame, corner_bytes, corners, false, face->reverse);
+    return ready ? corners : clip_outline(frame, face, corners);
+}
+
+static void begin_gradient(struct ow_frame *frame)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    const struct ow_face *face = &frame->face;
+    if (!frame->clipped) {
+        for (uint32_t i = 0; i < frame->points; i++) {
+            uint32_t from = face->reverse ? frame->points - 1 - i : i;
+            workspace->corner_lights[i] = ow_shade_corner(
+                &frame->shader, frame->tree, corner(frame->tree, face->at, from), face->reverse);
+        }
+    }
+    ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights, frame->points,
+                      frame->shader.shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
+}
+
+bool ow_face_outline(struct ow_frame *frame, struct ow_box *box)
+{
+    frame->clipped = false;
+    frame->points = project_outline(frame, &frame->face);
+    return frame->points > 0 &&
+           ow_outline_box(frame->workspace->outline, frame->points, &frame->window, box);
+}
+
+/* A face is shaded when its first spans come: most small faces have none. */
+void ow_paint_spans(struct ow_span_sink *sink)
+{
+    struct ow_frame *frame = (struct ow_frame *)(void *)sink;
+    struct ow_surface *surface = &frame->surface;
+    if (!frame->shaded) {
+        if (surface->gradient != NULL) {
+            surface->colour = ow_face_colour(&frame->shader, frame->tree, &frame->face);
+            begin_gradient(frame);
+        } else {
+            uint32_t colour = ow_shade_face(&frame->shader, frame->tree, &frame->face);
+            surface->colour = surface->target->format->pack(colour);
+        }
+        frame->shaded = true;
+    }
+    frame->kind->take(surface, sink->spans, sink->count);
+    sink->count = 0;
+}
+
+bool ow_draw_face(struct ow_frame *frame)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    struct ow_surface *surface = &frame->surface;
+    struct ow_box box;
+    if (!ow_face_outline(frame, &box) ||
+        (frame->kind->hides != NULL && frame->kind->hides(surface, &box))) {
+        return false;
+    }
+    uint32_t before = surface->pixels_written;
+    frame->shaded = false;
+    ow_scan(workspace->outline, frame->points, frame->rule, &box, workspace->edges, &frame->sink);
+    return surface->pixels_written != before;
+}

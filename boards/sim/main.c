@@ -88,6 +88,20 @@ static void check_tree(const struct run *run)
     }
 }
 
+/* Distances of the look, which only the tree can bring into lattice units. */
+static void scale_look(struct ow_look *look, const struct run *run)
+{
+    const double *depth_cue = run->settings.depth_cue;
+    if (depth_cue[1] > 0) {
+        look->depth_near = length_q8(depth_cue[0], &run->tree);
+        look->depth_far = length_q8(depth_cue[1], &run->tree);
+        if (look->depth_far <= look->depth_near) {
+            settings_wrong("--depth-cue %g,%g does not suit the model's size", depth_cue[0],
+                           depth_cue[1]);
+        }
+    }
+}
+
 static void start_viewer(struct run *run)
 {
     const struct settings *settings = &run->settings;
@@ -95,10 +109,13 @@ static void start_viewer(struct run *run)
     run->clock = (struct ow_clock){ &sim_virtual_clock_ops, &run->time };
     config->tree = &run->tree.tree;
     config->look = settings->look;
+    scale_look(&config->look, run);
     config->camera = run->views.lens;
     config->views = run->views.count;
     config->elevation = (ow_turn)lround(settings->elevation / 360 * 4294967296.0);
     config->band_lines = (uint16_t)settings->band_lines;
+    config->listed_faces =
+        settings->look.order == OW_SCAN_LINE ? ow_listed_faces_max(config->tree) : 0;
     config->panel = &run->panel.panel;
     config->clock = &run->clock;
     if (run->views.list != NULL) {

@@ -14,19 +14,24 @@
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 
-enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000 };
+enum {
+    ONE_Q8 = 256,
+    ONE_Q14 = 1 << 14,
+    ELEVATION_MAX = 89,
+    ORBIT_MAX = 100000,
+    SPECULAR_Q8 = 96,
+    SHININESS = 5
+};
 
 /* Names in the order of the core's enums where there is one; the rest is not there yet. */
-static const char *const orders[] = { "back-to-front", "front-to-back", "auto", "scanline", NULL };
+static const char *const orders[] = { "back-to-front", "front-to-back", "scanline", "auto", NULL };
 static const char *const shades[] = { "id", "flat", "gouraud", "phong", "lines", NULL };
 static const char *const culls[] = { "auto", "back", "none", NULL };
-static const char *const formats[] = { "xrgb8888", "rgb565", "gray4", "mono", NULL };
+static const char *const maps[] = { "none", "heat", "cool", "spectrum", NULL };
 static const char *const coverages[] = { "none", "4x4", NULL };
 static const char *const panels[] = { "lend", "write", NULL };
-enum { ORDER_AUTO = 2, ORDERS_THERE = 3, SHADES_THERE = 2, FORMATS_THERE = 2 };
+enum { ORDER_AUTO = 3, FORMATS_MOST = 31 };
 
-static const struct ow_pixel_format *const pixel_formats[] = { &ow_format_xrgb8888,
-                                                               &ow_format_rgb565 };
 static const enum sim_panel_kind panel_kinds[] = { SIM_PANEL_LENDS, SIM_PANEL_TAKES };
 
 static const char usage[] = "TREE.owt [view] [look] [-o PATTERN] [--sheet FILE] [--gif FILE]\n"
@@ -52,10 +57,16 @@ struct raw {
     int cull;
     int format;
     int coverage;
+    int map;
     int panel;
     uint64_t threads;
     const char *background;
+    const char *foreground;
+    const char *depth_cue;
+    bool dither;
     double ambient;
+    double highlight;
+    uint64_t shininess;
     double light[3];
     bool light_in_model;
     bool has_orbit;
@@ -91,18 +102,11 @@ const char *shade_name(enum ow_shade shade)
 
 /* ---- checks ---- */
 
-static void refuse_later(const char *option, const char *const *names, int choice, int there)
-{
-    if (choice >= there) {
-        settings_wrong("--%s %s is not there yet", option, names[choice]);
-    }
-}
-
-static uint32_t read_colour(const char *text)
+static uint32_t read_colour(const char *option, const char *text)
 {
     char *end;
     if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6) {
-        settings_wrong("--background takes six hexadecimal digits RRGGBB, not '%s'", text);
+        settings_wrong("--%s takes six hexadecimal digits RRGGBB, not '%s'", option, text);
     }
     return (uint32_t)strtoul(text, &end, 16);
 }
@@ -121,12 +125,37 @@ static void read_light(struct ow_light *light, const struct raw *raw)
     light->in_model_space = raw->light_in_model;
 }
 
+/* NEAR,FAR: two distances, 0 <= NEAR < FAR. */
+static void read_depth_cue(double depth[2], const char *text)
+{
+    char *comma;
+    char *end;
+    depth[0] = strtod(text, &comma);
+    depth[1] = *comma == ',' ? strtod(comma + 1, &end) : 0;
+    if (*comma != ',' || *end != '\0' || !(depth[0] >= 0) || !(depth[1] > depth[0]) ||
+        !isfinite(depth[1])) {
+        settings_wrong("--depth-cue takes two distances NEAR,FAR, from 0 upwards, not '%s'", text);
+    }
+}
+
+/* What excludes what. */
+static void check_look(const struct settings *settings, const struct raw *raw)
+{
+    const struct ow_look *look = &settings->look;
+    if (look->shade == OW_SHADE_ID && settings->format != &ow_format_xrgb8888) {
+        settings_wrong("--shade id needs --format xrgb8888: numbers have 24 bits");
+    }
+    if (look->coverage && (look->shade == OW_SHADE_ID || look->shade == OW_SHADE_LINES)) {
+        settings_wrong("--aa 4x4 mixes colours, it does not go with --shade %s",
+                       shades[look->shade]);
+    }
+    if (look->coverage && raw->order == OW_BACK_TO_FRONT) {
+        settings_wrong("--aa 4x4 draws front to back, leave out --order");
+    }
+}
+
 static void read_look(struct settings *settings, const struct raw *raw)
 {
-    refuse_later("order", orders, raw->order, ORDERS_THERE);
-    refuse_later("shade", shades, raw->shade, SHADES_THERE);
-    refuse_later("format", formats, raw->format, FORMATS_THERE);
-    refuse_later("aa", coverages, raw->coverage, 1);
     if (raw->threads != 1) {
         settings_wrong("--threads above 1 is not there yet");
     }
@@ -134,14 +163,23 @@ static void read_look(struct settings *settings, const struct raw *raw)
     look->order = raw->order == ORDER_AUTO ? OW_FRONT_TO_BACK : (enum ow_order)raw->order;
     look->shade = (enum ow_shade)raw->shade;
     look->cull = (enum ow_cull)raw->cull;
-    look->background = look->shade == OW_SHADE_ID ? 0 : read_colour(raw->background);
-    look->ambient_q8 = (uint16_t)lround(raw->ambient * ONE_Q8);
-    read_light(&look->light, raw);
-    settings->format = pixel_formats[raw->format];
-    settings->panel = panel_kinds[raw->panel];
-    if (look->shade == OW_SHADE_ID && settings->format != &ow_format_xrgb8888) {
-        settings_wrong("--shade id needs --format xrgb8888: numbers have 24 bits");
+    look->background = look->shade == OW_SHADE_ID ? 0 : read_colour("background", raw->background);
+    look->foreground = read_colour("foreground", raw->foreground);
+    look->specular_q8 = SPECULAR_Q8;
+    look->shininess = SHININESS;
+    look->dither = raw->dither;
+    look->map = (enum ow_map)raw->map;
+    look->coverage = raw->coverage != 0;
+    if (raw->depth_cue != NULL) {
+        read_depth_cue(settings->depth_cue, raw->depth_cue);
     }
+    look->ambient_q8 = (uint16_t)lround(raw->ambient * ONE_Q8);
+    look->specular_q8 = (uint16_t)lround(raw->highlight * ONE_Q8);
+    look->shininess = (uint8_t)raw->shininess;
+    read_light(&look->light, raw);
+    settings->format = ow_formats[raw->format];
+    settings->panel = panel_kinds[raw->panel];
+    check_look(settings, raw);
 }
 
 static void check_views(struct settings *settings, const struct raw *raw)
@@ -232,7 +270,10 @@ static void set_defaults(struct settings *settings, struct raw *raw)
         .shade = OW_SHADE_FLAT,
         .threads = 1,
         .background = "20242c",
+        .foreground = "f0f0f0",
         .ambient = 0.3,
+        .highlight = 0.4,
+        .shininess = 4,
         .light = { -0.4, 0.6, 0.7 },
     };
 }
@@ -240,7 +281,11 @@ static void set_defaults(struct settings *settings, struct raw *raw)
 void settings_read(struct settings *s, int argc, char **argv)
 {
     struct raw raw;
+    const char *formats[FORMATS_MOST + 1] = { NULL };
     set_defaults(s, &raw);
+    for (uint32_t i = 0; i < ow_format_count && i < FORMATS_MOST; i++) {
+        formats[i] = ow_formats[i]->name;
+    }
     const struct option_spec specs[] = {
         { "size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX },
         { "eye", 0, OPTION_VECTOR, s->eye, "x,y,z", "where the eye is, in model units",
@@ -269,13 +314,26 @@ void settings_read(struct settings *s, int argc, char **argv)
         { "cull", 0, OPTION_CHOICE, &raw.cull, NULL, "auto: as the tree was built",
           .choices = culls },
         { "format", 0, OPTION_CHOICE, &raw.format, NULL, "the panel's pixels", .choices = formats },
-        { "aa", 0, OPTION_CHOICE, &raw.coverage, NULL, "coverage", .choices = coverages },
+        { "dither", 0, OPTION_FLAG, &raw.dither, NULL,
+          .help = "ordered, in formats of few levels" },
+        { "map", 0, OPTION_CHOICE, &raw.map, NULL, "intensity as a colour, not the material's",
+          .choices = maps },
+        { "depth-cue", 0, OPTION_STRING, &raw.depth_cue, "NEAR,FAR",
+          .help = "colours fade to the background between these distances" },
+        { "aa", 0, OPTION_CHOICE, &raw.coverage, NULL, "4x4: 16 samples a pixel",
+          .choices = coverages },
         { "threads", 0, OPTION_UNSIGNED, &raw.threads, "N", "bands drawn at a time", .min = 1,
           .max = 64 },
         { "background", 0, OPTION_STRING, &raw.background, "RRGGBB",
           .help = "colour behind the model" },
+        { "foreground", 0, OPTION_STRING, &raw.foreground, "RRGGBB",
+          .help = "colour of --shade lines" },
         { "ambient", 0, OPTION_DOUBLE, &raw.ambient, "A",
           "share of the light from everywhere, the rest is directional", .min = 0, .max = 1 },
+        { "highlight", 0, OPTION_DOUBLE, &raw.highlight, "A", "phong: share of white in its middle",
+          .min = 0, .max = 1 },
+        { "shininess", 0, OPTION_UNSIGNED, &raw.shininess, "N",
+          "phong: the highlight's exponent is 2^N", .min = 0, .max = 7 },
         { "light", 0, OPTION_VECTOR, raw.light, "x,y,z",
           .help = "towards the light: right, up, to the viewer" },
         { "light-in-model", 0, OPTION_FLAG, &raw.light_in_model, NULL,

@@ -28,6 +28,7 @@ struct settings {
     const char *script; /* file or NULL */
 
     struct ow_look look;
+    double depth_cue[2]; /* model units; both 0: none */
     const struct ow_pixel_format *format;
     enum sim_panel_kind panel;
     uint64_t band_lines; /* 0: all */

@@ -24,8 +24,7 @@ struct model_view {
 
 /* ---- conversion ---- */
 
-/* A length in lattice units, 8 fraction bits; 0 where it is out of the core's range. */
-static ow_q8 length_q8(double length, const struct tree_file *tree)
+ow_q8 length_q8(double length, const struct tree_file *tree)
 {
     double value = round(length / tree->step * ONE_Q8);
     return value >= 1 && value <= INT32_MAX ? (ow_q8)value : 0;

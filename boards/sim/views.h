@@ -15,6 +15,9 @@ struct views {
     uint32_t count;
 };
 
+/* A length in lattice units, 8 fraction bits; 0 where it is out of the core's range. */
+ow_q8 length_q8(double length, const struct tree_file *tree);
+
 /* Ends the program if a view cannot be made: status 2, or 1 for a wrong file of views. */
 void views_make(struct views *views, const struct settings *settings, const struct tree_file *tree);
 void views_free(struct views *views);

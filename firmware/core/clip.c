@@ -83,9 +83,11 @@ static uint32_t clip_by_plane(const struct ow_view *view, const struct ow_camera
             return capacity + 1;
         }
         if (last_by >= 0 && by < 0) {
-            to[written++] = meet(view, last, p, last_by, by, plane);
+            to[written] = meet(view, last, p, last_by, by, plane);
+            to[written++].marked = true; /* along the plane */
         } else if (last_by < 0 && by >= 0) {
-            to[written++] = meet(view, p, last, by, last_by, plane);
+            to[written] = meet(view, p, last, by, last_by, plane);
+            to[written++].marked = last->marked;
         }
         if (by >= 0) {
             to[written++] = *p;

@@ -6,6 +6,7 @@
 #include "ow_draw.h"
 
 #include "ow_frame.h"
+#include "ow_lines.h"
 #include "ow_memory.h"
 
 /* The walk asks: can nothing of what is below this node be seen? */
@@ -36,49 +37,54 @@ static bool workspace_fits(const struct ow_workspace *workspace, const struct ow
            (workspace->cache_mask != 0xFFFFFFFFu || workspace->cache_entries >= tree->vertex_count);
 }
 
-enum ow_status ow_frame_begin(struct ow_workspace *workspace, const struct ow_tree *tree,
-                              const struct ow_view *view, const struct ow_look *look,
-                              enum ow_direction direction)
+/* Begins the walk; what the last one counted is added up. */
+static enum ow_status begin_walk(struct ow_frame *frame, enum ow_direction direction)
+{
+    enum ow_status status = ow_walk_begin(&frame->walk, frame->tree, frame->view, direction,
+                                          frame->look->cull, frame->workspace->stack);
+    frame->walk.skip = (struct ow_walk_skip){ hides_node, frame };
+    return status;
+}
+
+static void end_walk(struct ow_frame *frame)
+{
+    frame->visited += frame->walk.faces_met;
+    frame->skipped += frame->walk.nodes_skipped;
+}
+
+enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *view,
+                             const struct ow_look *look, struct ow_workspace *workspace)
 {
     struct ow_frame *frame = workspace->frame;
-    if (!workspace_fits(workspace, tree, view)) {
+    if (!workspace_fits(workspace, tree, view) || !ow_look_fits(look, workspace)) {
         return OW_ARGUMENT;
     }
     if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
         return OW_NORMALS;
     }
     memset(frame, 0, sizeof *frame);
-    enum ow_status status =
-        ow_walk_begin(&frame->walk, tree, view, direction, look->cull, workspace->stack);
-    if (status != OW_OK) {
-        return status;
-    }
-    frame->walk.skip = (struct ow_walk_skip){ hides_node, frame };
-    frame->sink = (struct ow_span_sink){ workspace->spans, 0, workspace->lines, ow_paint_spans };
+    frame->sink =
+        (struct ow_span_sink){ workspace->spans, 0, workspace->span_capacity, ow_paint_spans };
     frame->tree = tree;
     frame->view = view;
     frame->look = look;
     frame->workspace = workspace;
     frame->window = (struct ow_window){ 0, view->height, view->width };
-    frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     frame->tag = next_stamp(workspace);
+    frame->draw_face = look->shade == OW_SHADE_LINES ? ow_lines_draw_face : NULL;
     ow_frustum_make(&frame->frustum, view);
     ow_shader_make(&frame->shader, look, view);
-    return OW_OK;
+    enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
+    frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
+    if (status == OW_OK && look->order == OW_SCAN_LINE) {
+        status = ow_scan_lines_begin(frame);
+        end_walk(frame);
+    }
+    return status;
 }
 
-enum ow_status ow_frame_check(const struct ow_frame *frame, const struct ow_target *target)
-{
-    uint32_t end_line = (uint32_t)target->first_line + target->line_count;
-    bool fits = target->line_count > 0 && target->line_count <= frame->workspace->lines &&
-                end_line <= frame->view->height && target->stride % 4 == 0 &&
-                target->stride >= ow_row_bytes(target->format, frame->view->width) &&
-                (uintptr_t)target->pixels % 4 == 0;
-    return fits ? OW_OK : OW_ARGUMENT;
-}
-
-void ow_frame_target(struct ow_frame *frame, const struct ow_surface_kind *kind,
-                     const struct ow_target *target)
+void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
+                  const struct ow_target *target)
 {
     struct ow_surface *surface = &frame->surface;
     const struct ow_workspace *workspace = frame->workspace;
@@ -94,18 +100,57 @@ void ow_frame_target(struct ow_frame *frame, const struct ow_surface_kind *kind,
     surface->words_in_line = (surface->width + 31) / 32;
     surface->shader = &frame->shader;
     surface->gradient = ow_shade_is_smooth(frame->shader.shade) ? &frame->gradient : NULL;
+    ow_surface_choose_write(surface, frame->look);
 }
 
-enum ow_status ow_frame_report(const struct ow_frame *frame, struct ow_stats *stats)
+void ow_frame_walk(struct ow_frame *frame)
 {
+    (void)begin_walk(frame, frame->kind->direction); /* ow_draw_begin has seen that it can */
+    while (frame->surface.lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
+        frame->painted += ow_draw_face(frame);
+    }
+    end_walk(frame);
+}
+
+static void draw_band(struct ow_frame *frame, const struct ow_target *target)
+{
+    const struct ow_surface_kind *kind =
+        frame->look->order == OW_FRONT_TO_BACK ? &ow_surface_dynamic : &ow_surface_painter;
+    ow_frame_aim(frame, kind, target);
+    kind->begin(&frame->surface, frame->background);
+    ow_frame_walk(frame);
+    kind->end(&frame->surface, frame->background);
+}
+
+static bool target_fits(const struct ow_frame *frame, const struct ow_target *target)
+{
+    uint32_t end_line = (uint32_t)target->first_line + target->line_count;
+    return target->line_count > 0 && target->line_count <= frame->workspace->lines &&
+           end_line <= frame->view->height && target->stride % 4 == 0 &&
+           target->stride >= ow_row_bytes(target->format, frame->view->width) &&
+           (uintptr_t)target->pixels % 4 == 0;
+}
+
+enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_target *target,
+                            struct ow_stats *stats)
+{
+    struct ow_frame *frame = workspace->frame;
+    if (!target_fits(frame, target)) {
+        return OW_ARGUMENT;
+    }
+    if (frame->look->order != OW_SCAN_LINE) {
+        draw_band(frame, target);
+    } else if (ow_scan_lines_draw(frame, target) != OW_OK) {
+        return OW_ARGUMENT;
+    }
     if (stats != NULL) {
         *stats = (struct ow_stats){
-            .polygons_visited = frame->walk.faces_met,
+            .polygons_visited = frame->visited,
             .polygons_painted = frame->painted,
             .pixels_written = frame->surface.pixels_written,
             .pixels_background = frame->surface.pixels_background,
             .spans = frame->surface.spans_written,
-            .nodes_skipped = frame->walk.nodes_skipped,
+            .nodes_skipped = frame->skipped,
             .polygons_unlisted = frame->unlisted,
             .polygons_dropped = frame->dropped,
         };
@@ -113,36 +158,10 @@ enum ow_status ow_frame_report(const struct ow_frame *frame, struct ow_stats *st
     return frame->dropped > 0 ? OW_CAPACITY : OW_OK;
 }
 
-static enum ow_status draw_scan_lines(const struct ow_tree *tree, const struct ow_view *view,
-                                      const struct ow_look *look, const struct ow_target *target,
-                                      struct ow_workspace *workspace, struct ow_stats *stats)
-{
-    enum ow_status status = ow_scan_lines_begin(tree, view, look, workspace);
-    return status == OW_OK ? ow_scan_lines_draw(workspace, target, stats) : status;
-}
-
 enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
                        const struct ow_look *look, const struct ow_target *target,
                        struct ow_workspace *workspace, struct ow_stats *stats)
 {
-    if (look->order == OW_SCAN_LINE) {
-        return draw_scan_lines(tree, view, look, target, workspace, stats);
-    }
-    struct ow_frame *frame = workspace->frame;
-    const struct ow_surface_kind *kind =
-        look->order == OW_FRONT_TO_BACK ? &ow_surface_dynamic : &ow_surface_painter;
-    enum ow_status status = ow_frame_begin(workspace, tree, view, look, kind->direction);
-    if (status == OW_OK) {
-        status = ow_frame_check(frame, target);
-    }
-    if (status != OW_OK) {
-        return status;
-    }
-    ow_frame_target(frame, kind, target);
-    kind->begin(&frame->surface, frame->background);
-    while (frame->surface.lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
-        frame->painted += ow_draw_face(frame);
-    }
-    kind->end(&frame->surface, frame->background);
-    return ow_frame_report(frame, stats);
+    enum ow_status status = ow_draw_begin(tree, view, look, workspace);
+    return status == OW_OK ? ow_draw_band(workspace, target, stats) : status;
 }

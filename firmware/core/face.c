@@ -5,14 +5,8 @@
  */
 #include "ow_clip.h"
 #include "ow_frame.h"
+#include "ow_lines.h"
 #include "ow_project.h"
-
-static inline uint32_t corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
-{
-    uint32_t first = at + tree->corners_in_record;
-    return (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(tree->bytes, first + 4 * i)
-                                           : ow_read_u16(tree->bytes, first + 2 * i);
-}
 
 /* Computes a vertex's place on the screen into its entry of the cache. */
 static void project_vertex(const struct ow_frame *frame, uint32_t vertex,
@@ -32,10 +26,12 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
 {
     struct ow_workspace *workspace = frame->workspace;
     bool smooth = ow_shade_is_smooth(frame->shader.shade);
+    bool lines = frame->shader.shade == OW_SHADE_LINES;
     for (uint32_t i = 0; i < corners; i++) {
         uint32_t from = face->reverse ? corners - 1 - i : i;
-        uint32_t vertex = corner(frame->tree, face->at, from);
+        uint32_t vertex = ow_corner(frame->tree, face->at, from);
         workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
+        workspace->clip[0][i].marked = lines && ow_edge_is_marked(frame->tree, face, i);
         if (smooth) {
             workspace->clip[0][i].light =
                 ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse);
@@ -49,6 +45,9 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
     for (uint32_t i = 0; i < count; i++) {
         workspace->outline[i] = ow_to_screen(frame->view, workspace->clip[which][i]);
         workspace->corner_lights[i] = workspace->clip[which][i].light;
+        if (lines) {
+            workspace->corner_lights[i].part[0] = workspace->clip[which][i].marked;
+        }
     }
     frame->clipped = true;
     return count < 3 ? 0 : count;
@@ -99,19 +98,29 @@ static void begin_gradient(struct ow_frame *frame)
         for (uint32_t i = 0; i < frame->points; i++) {
             uint32_t from = face->reverse ? frame->points - 1 - i : i;
             workspace->corner_lights[i] = ow_shade_corner(
-                &frame->shader, frame->tree, corner(frame->tree, face->at, from), face->reverse);
+                &frame->shader, frame->tree, ow_corner(frame->tree, face->at, from), face->reverse);
         }
     }
     ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights, frame->points,
-                      frame->shader.shade == OW_SHADE_PHONG ? OW_LIGHT_PARTS : 1);
+                      frame->shader.parts);
+}
+
+bool ow_face_project(struct ow_frame *frame)
+{
+    frame->clipped = false;
+    frame->shaded = false;
+    frame->points = project_outline(frame, &frame->face);
+    return frame->points > 0;
 }
 
 bool ow_face_outline(struct ow_frame *frame, struct ow_box *box)
 {
-    frame->clipped = false;
-    frame->points = project_outline(frame, &frame->face);
-    return frame->points > 0 &&
-           ow_outline_box(frame->workspace->outline, frame->points, &frame->window, box);
+    if (!ow_face_project(frame)) {
+        return false;
+    }
+    return frame->shader.shade == OW_SHADE_LINES
+               ? ow_lines_box(frame, box)
+               : ow_outline_box(frame->workspace->outline, frame->points, &frame->window, box);
 }
 
 /* A face is shaded when its first spans come: most small faces have none. */
@@ -121,11 +130,11 @@ void ow_paint_spans(struct ow_span_sink *sink)
     struct ow_surface *surface = &frame->surface;
     if (!frame->shaded) {
         if (surface->gradient != NULL) {
-            surface->colour = ow_face_colour(&frame->shader, frame->tree, &frame->face);
+            surface->rgb = ow_face_colour(&frame->shader, frame->tree, &frame->face);
             begin_gradient(frame);
         } else {
-            uint32_t colour = ow_shade_face(&frame->shader, frame->tree, &frame->face);
-            surface->colour = surface->target->format->pack(colour);
+            surface->rgb = ow_shade_face(&frame->shader, frame->tree, &frame->face);
+            surface->colour = surface->target->format->pack(surface->rgb);
         }
         frame->shaded = true;
     }
@@ -138,12 +147,15 @@ bool ow_draw_face(struct ow_frame *frame)
     struct ow_workspace *workspace = frame->workspace;
     struct ow_surface *surface = &frame->surface;
     struct ow_box box;
+    uint32_t before = surface->spans_written;
+    if (frame->draw_face != NULL) {
+        frame->draw_face(frame);
+        return surface->spans_written != before;
+    }
     if (!ow_face_outline(frame, &box) ||
         (frame->kind->hides != NULL && frame->kind->hides(surface, &box))) {
         return false;
     }
-    uint32_t before = surface->pixels_written;
-    frame->shaded = false;
     ow_scan(workspace->outline, frame->points, frame->rule, &box, workspace->edges, &frame->sink);
-    return surface->pixels_written != before;
+    return surface->spans_written != before;
 }

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "ow_fixed.h"
 #include "ow_pixel.h"
 #include "ow_status.h"
 #include "ow_tree.h"
@@ -25,7 +26,16 @@ enum ow_shade {
     OW_SHADE_ID,      /* the source polygon's number as a colour, no light */
     OW_SHADE_FLAT,    /* one colour a face: ambient and directional light */
     OW_SHADE_GOURAUD, /* intensity interpolated between the corners; needs vertex normals */
-    OW_SHADE_PHONG    /* normals interpolated, with a highlight; needs vertex normals */
+    OW_SHADE_PHONG,   /* normals interpolated, with a highlight; needs vertex normals */
+    OW_SHADE_LINES    /* outlines in the foreground's colour, faces in the background's */
+};
+
+/* What becomes of a face's intensity. */
+enum ow_map {
+    OW_MAP_NONE,    /* it scales the material's colour */
+    OW_MAP_HEAT,    /* black, red, orange, yellow, white, as a heated object [FAG83] */
+    OW_MAP_COOL,    /* black, blue, cyan, white */
+    OW_MAP_SPECTRUM /* blue, green, yellow, red: levels can be told apart */
 };
 
 /* Lengths and directions: right, up, towards the viewer; or the model's axes. */
@@ -46,6 +56,21 @@ struct ow_look {
     /* OW_SHADE_PHONG: the highlight's strength, 256 adds full white in its middle; 0: none. */
     uint16_t specular_q8;
     uint8_t shininess; /* the highlight's exponent is 2^shininess; 0 .. 7 */
+    bool dither;       /* ordered, in formats of few levels; not OW_SHADE_ID */
+    enum ow_map map;   /* flat, Gouraud and Phong */
+    /*
+     * Depth cue: up to depth_near in front of the eye all shows its colour, from
+     * depth_far on the background's, in between a mixture. Lattice steps along the
+     * view vector, 0 <= near < far; both 0: none. Flat: by the face's nearest corner.
+     */
+    ow_q8 depth_near;
+    ow_q8 depth_far;
+    uint32_t foreground; /* OW_SHADE_LINES: 0x00RRGGBB */
+    /*
+     * 16 samples a pixel, nearest first, flat or smooth: needs a workspace with
+     * coverage. Not OW_SHADE_ID, not OW_SHADE_LINES, not with OW_BACK_TO_FRONT.
+     */
+    bool coverage;
 };
 
 /* Where the band's pixels go. */
@@ -57,7 +82,7 @@ struct ow_target {
     const struct ow_pixel_format *format;
 };
 
-/* Counted over one call. */
+/* Counted over a frame. */
 struct ow_stats {
     uint32_t polygons_visited; /* faces that the walk came by */
     uint32_t polygons_painted; /* faces of which at least one pixel was written */
@@ -80,6 +105,7 @@ struct ow_workspace_config {
      */
     uint32_t listed_faces;
     uint16_t height; /* scan line order: most lines of a view */
+    bool coverage;   /* 8 bytes a pixel of a band and 4 spans a line, for the look's coverage */
 };
 
 /* Private to the core, here so that the caller can place it. */
@@ -92,9 +118,12 @@ struct ow_workspace {
     struct ow_camera_point *clip[2];
     struct ow_scan_edge *edges;
     struct ow_span *spans;
-    uint32_t *unlit;       /* front to back: a bit a pixel */
-    uint16_t *open_pixels; /* front to back: unlit pixels of each line */
-    uint32_t *open_tiles;  /* front to back: a bit for each tile that may have unlit pixels */
+    uint32_t *unlit;            /* front to back: a bit a pixel */
+    uint16_t *open_pixels;      /* front to back: unlit pixels of each line */
+    uint32_t *open_tiles;       /* front to back: a bit for each tile that may have unlit pixels */
+    struct ow_samples *samples; /* coverage: of each pixel; NULL: there is no memory for it */
+    uint32_t *sampled;          /* coverage: a bit for each pixel whose samples are in use */
+    uint32_t span_capacity;
     struct ow_listed_face *listed;
     uint32_t *line_heads;
     uint32_t listed_capacity;
@@ -120,25 +149,26 @@ enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct o
                                   uint32_t bytes);
 
 /*
- * Draws one band whole, background included. The picture does not depend on
- * the order, the bands or the cache. Errors: OW_ARGUMENT, OW_SIDES, OW_NORMALS,
- * OW_CAPACITY (the rest was drawn). stats may be NULL.
+ * Begins a frame; tree, view and look must stay until its last band. Errors:
+ * OW_ARGUMENT (a workspace that is too small, or without a list for scan line
+ * order), OW_SIDES, OW_NORMALS.
  */
+enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *view,
+                             const struct ow_look *look, struct ow_workspace *workspace);
+
+/*
+ * Draws one band of the frame whole, background included. The picture does not
+ * depend on the order, the bands or the cache. In scan line order each band
+ * must be below the last one. stats, unless NULL: counted since ow_draw_begin.
+ * Errors: OW_ARGUMENT, OW_CAPACITY (the rest was drawn).
+ */
+enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_target *target,
+                            struct ow_stats *stats);
+
+/* Both, for a frame that is one band. */
 enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,
                        const struct ow_look *look, const struct ow_target *target,
                        struct ow_workspace *workspace, struct ow_stats *stats);
-
-/*
- * Scan line order in its own right, for panels that take lines: the tree is
- * walked once, then any number of bands are drawn, each below the last one.
- * tree, view and look must stay until the last. ow_draw with OW_SCAN_LINE does
- * both for one band. Errors: as ow_draw, and OW_ARGUMENT for a workspace
- * without room for a list or a band that is not below the last.
- */
-enum ow_status ow_scan_lines_begin(const struct ow_tree *tree, const struct ow_view *view,
-                                   const struct ow_look *look, struct ow_workspace *workspace);
-enum ow_status ow_scan_lines_draw(struct ow_workspace *workspace, const struct ow_target *target,
-                                  struct ow_stats *stats);
 
 /* A capacity for ow_workspace_config.listed_faces that never runs out. */
 uint32_t ow_listed_faces_max(const struct ow_tree *tree);

@@ -41,8 +41,11 @@ struct ow_frame {
     enum ow_winding rule;
     uint32_t tag; /* the stamp in bits 24-31 */
     uint32_t dropped;
-    uint32_t painted;    /* faces of which a pixel was written */
-    uint32_t background; /* packed */
+    void (*draw_face)(struct ow_frame *frame); /* in another way than ow_draw_face's; or NULL */
+    uint32_t visited;                          /* faces that walks came by */
+    uint32_t skipped;                          /* nodes that walks left out */
+    uint32_t painted;                          /* faces of which a pixel was written */
+    uint32_t background;                       /* packed */
     const struct ow_look *look;
     /* Scan line order. */
     struct ow_target line; /* the line being drawn */
@@ -52,6 +55,9 @@ struct ow_frame {
     uint32_t at_hand;      /* the nearest listed face that touches the line */
     struct ow_surface surface;
 };
+
+/* Makes frame->face's outline in workspace->outline, not shaded yet. False if there is none. */
+bool ow_face_project(struct ow_frame *frame);
 
 /*
  * Makes frame->face's outline in workspace->outline and the pixels of the
@@ -65,13 +71,18 @@ bool ow_draw_face(struct ow_frame *frame);
 /* The frame's sink: shades the face, unless that was done, and gives its spans to the surface. */
 void ow_paint_spans(struct ow_span_sink *sink);
 
-/* What ow_draw begins with, in two parts; see draw.c. */
-enum ow_status ow_frame_begin(struct ow_workspace *workspace, const struct ow_tree *tree,
-                              const struct ow_view *view, const struct ow_look *look,
-                              enum ow_direction direction);
-void ow_frame_target(struct ow_frame *frame, const struct ow_surface_kind *kind,
-                     const struct ow_target *target);
-enum ow_status ow_frame_check(const struct ow_frame *frame, const struct ow_target *target);
-enum ow_status ow_frame_report(const struct ow_frame *frame, struct ow_stats *stats);
+/* Aims the frame at a band or line. */
+void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
+                  const struct ow_target *target);
+
+/* Draws all faces of the walk, begun anew, into what the frame is aimed at. */
+void ow_frame_walk(struct ow_frame *frame);
+
+/* Scan line order: lists the faces that touch the view; draws lines from the list. */
+enum ow_status ow_scan_lines_begin(struct ow_frame *frame);
+enum ow_status ow_scan_lines_draw(struct ow_frame *frame, const struct ow_target *target);
+
+/* True if this look can be drawn with this workspace. */
+bool ow_look_fits(const struct ow_look *look, const struct ow_workspace *workspace);
 
 #endif

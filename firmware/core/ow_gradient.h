@@ -23,7 +23,7 @@ struct ow_gradient {
     const struct ow_outline_point *points;
     const struct ow_corner_light *lights;
     uint32_t count;
-    uint32_t parts;                /* 1 or OW_LIGHT_PARTS */
+    uint32_t parts;                /* 1 .. OW_LIGHT_PARTS */
     int32_t line;                  /* the one that ramp is for; -1: none */
     bool is_plane;                 /* a triangle: down and right hold for all lines */
     int64_t right[OW_LIGHT_PARTS]; /* per 1/256 pixel, 16 fraction bits */

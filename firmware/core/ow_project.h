@@ -13,10 +13,11 @@
 #include "ow_read.h"
 
 /*
- * What smooth shading interpolates: Gouraud's intensity (65536 is full) in [0],
- * or Phong's normal, 8128 times the unit vector.
+ * What smooth shading interpolates: Gouraud's intensity (65536 is full), or
+ * Phong's normal, 8128 times the unit vector; then, with a depth cue, the share
+ * of the colour that is seen (65536 is all).
  */
-enum { OW_LIGHT_PARTS = 3 };
+enum { OW_LIGHT_PARTS = 4 };
 
 struct ow_corner_light {
     int32_t part[OW_LIGHT_PARTS];
@@ -27,6 +28,7 @@ struct ow_camera_point {
     int32_t y;
     int32_t z;
     struct ow_corner_light light; /* only clipping looks at it, and only for smooth shading */
+    bool marked; /* the edge to the next point is not to be drawn; only for lines */
 };
 
 struct ow_outline_point {
@@ -41,6 +43,14 @@ struct ow_cached_vertex {
 };
 
 #define OW_CLIP_FIRST INT32_MIN
+
+/* The vertex number of corner i of the polygon record at byte offset at. */
+static inline uint32_t ow_corner(const struct ow_tree *tree, uint32_t at, uint32_t i)
+{
+    uint32_t first = at + tree->corners_in_record;
+    return (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(tree->bytes, first + 4 * i)
+                                           : ow_read_u16(tree->bytes, first + 2 * i);
+}
 
 /* Vertex number vertex of the tree in camera units. */
 static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
@@ -59,7 +69,8 @@ static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
         (int32_t)((view->forward[0] * x + view->forward[1] * y + view->forward[2] * z +
                    view->offset[2]) >>
                   shift),
-        { { 0, 0, 0 } },
+        { { 0, 0, 0, 0 } },
+        false,
     };
 }
 

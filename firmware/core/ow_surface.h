@@ -7,6 +7,7 @@
 #define OW_SURFACE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "ow_draw.h"
@@ -14,12 +15,23 @@
 #include "ow_scan.h"
 #include "ow_shade.h"
 
+/* Coverage: what a pixel has of its 16 samples so far. */
+struct ow_samples {
+    uint16_t mask;   /* a bit for each sample, row by row */
+    uint16_t sum[3]; /* red, green, blue of those in the mask */
+};
+
 struct ow_surface {
     const struct ow_target *target;
     uint32_t width;
-    uint32_t colour; /* of the face being scanned: packed, or the material's if it is smooth */
+    uint32_t rgb;    /* of the face being scanned; the material's if it is smooth */
+    uint32_t colour; /* the same packed, if it is not smooth */
     const struct ow_shader *shader;
     struct ow_gradient *gradient; /* of the face being scanned; NULL: it has one colour */
+    /* Writes pixels first .. end-1 of a line; NULL: a fill with the colour does. */
+    void (*write)(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
+    bool dither;
+    uint32_t background; /* 0x00RRGGBB */
     uint32_t pixels_written;
     uint32_t spans_written;
     uint32_t pixels_background;
@@ -66,15 +78,25 @@ static inline uint8_t *ow_line_pixels(const struct ow_target *target, uint32_t l
     return target->pixels + (line - target->first_line) * target->stride;
 }
 
-/* Writes pixels first .. end-1 of a line by the surface's gradient. */
-void ow_write_smooth_run(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
+/* Decides how runs are written; format and gradient must be set. */
+void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look);
+
+/* From now on the surface writes the background; packed: its colour. */
+void ow_surface_become_background(struct ow_surface *surface, uint32_t packed);
+
+/* Writes the background into pixels first .. end-1 of a line. Counts nothing. */
+void ow_write_background(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end,
+                         uint32_t packed);
+
+/* The colour of one pixel by the surface's gradient. */
+uint32_t ow_smooth_pixel(struct ow_surface *surface, uint32_t line, uint32_t x);
 
 /* Writes pixels first .. end-1 of a line in the colour or gradient of the face. */
 static inline void ow_write_run(struct ow_surface *surface, uint32_t line, uint32_t first,
                                 uint32_t end)
 {
-    if (surface->gradient != NULL) {
-        ow_write_smooth_run(surface, line, first, end);
+    if (surface->write != NULL) {
+        surface->write(surface, line, first, end);
     } else {
         surface->target->format->fill(ow_line_pixels(surface->target, line), first, end,
                                       surface->colour);

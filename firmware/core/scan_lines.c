@@ -7,7 +7,6 @@
  */
 #include "ow_draw.h"
 #include "ow_frame.h"
-#include "ow_memory.h"
 
 #define NO_FACE 0xFFFFFFFFu
 
@@ -42,18 +41,15 @@ static void list_faces(struct ow_frame *frame)
     }
 }
 
-enum ow_status ow_scan_lines_begin(const struct ow_tree *tree, const struct ow_view *view,
-                                   const struct ow_look *look, struct ow_workspace *workspace)
+enum ow_status ow_scan_lines_begin(struct ow_frame *frame)
 {
-    if (workspace->listed_capacity == 0 || view->height > workspace->listed_height) {
+    if (frame->workspace->listed_capacity == 0 ||
+        frame->view->height > frame->workspace->listed_height) {
         return OW_ARGUMENT;
     }
-    enum ow_status status = ow_frame_begin(workspace, tree, view, look, OW_FARTHEST_FIRST);
-    if (status == OW_OK) {
-        list_faces(workspace->frame);
-        workspace->frame->at_hand = NO_FACE;
-    }
-    return status;
+    list_faces(frame);
+    frame->at_hand = NO_FACE;
+    return OW_OK;
 }
 
 /* Merges a line's new faces into those at hand; both are sorted, highest number first. */
@@ -93,48 +89,35 @@ static void draw_at_hand(struct ow_frame *frame, uint32_t line)
     }
 }
 
-/* More faces than the list holds: the line walks the tree, slowly and rightly. */
-static void draw_by_walk(struct ow_frame *frame)
+/* With more faces than the list holds, each line walks the tree: slow, and the right picture. */
+static void draw_line(struct ow_frame *frame, const struct ow_target *target, uint32_t line)
 {
-    uint32_t met = frame->walk.faces_met;
-    struct ow_walk_skip skip = frame->walk.skip;
-    (void)ow_walk_begin(&frame->walk, frame->tree, frame->view, OW_NEAREST_FIRST, frame->look->cull,
-                        frame->workspace->stack);
-    frame->walk.skip = skip;
-    while (frame->surface.lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
-        (void)ow_draw_face(frame);
-    }
-    frame->walk.faces_met = met;
-}
-
-enum ow_status ow_scan_lines_draw(struct ow_workspace *workspace, const struct ow_target *target,
-                                  struct ow_stats *stats)
-{
-    struct ow_frame *frame = workspace->frame;
     const struct ow_surface_kind *kind = &ow_surface_dynamic;
-    enum ow_status status = ow_frame_check(frame, target);
-    if (status != OW_OK || target->first_line < frame->lines_done) {
-        return OW_ARGUMENT;
-    }
     frame->line = *target;
     frame->line.line_count = 1;
+    frame->line.first_line = (uint16_t)line;
+    frame->line.pixels = ow_line_pixels(target, line);
+    ow_frame_aim(frame, kind, &frame->line);
+    kind->begin(&frame->surface, frame->background);
+    if (frame->unlisted > 0) {
+        ow_frame_walk(frame);
+    } else {
+        draw_at_hand(frame, line);
+    }
+    kind->end(&frame->surface, frame->background);
+}
+
+enum ow_status ow_scan_lines_draw(struct ow_frame *frame, const struct ow_target *target)
+{
+    if (target->first_line < frame->lines_done) {
+        return OW_ARGUMENT;
+    }
     uint32_t end_line = (uint32_t)target->first_line + target->line_count;
     for (; frame->lines_done < end_line; frame->lines_done++) {
-        uint32_t line = frame->lines_done;
-        take_new_faces(frame, line);
-        if (line < target->first_line) {
-            continue;
+        take_new_faces(frame, frame->lines_done);
+        if (frame->lines_done >= target->first_line) {
+            draw_line(frame, target, frame->lines_done);
         }
-        frame->line.first_line = (uint16_t)line;
-        frame->line.pixels = ow_line_pixels(target, line);
-        ow_frame_target(frame, kind, &frame->line);
-        kind->begin(&frame->surface, frame->background);
-        if (frame->unlisted > 0) {
-            draw_by_walk(frame);
-        } else {
-            draw_at_hand(frame, line);
-        }
-        kind->end(&frame->surface, frame->background);
     }
-    return ow_frame_report(frame, stats);
+    return OW_OK;
 }

@@ -60,6 +60,25 @@ static void make_unit(int32_t v[3])
     }
 }
 
+/* A distance in camera units. */
+static int32_t to_depth(ow_q8 distance, const struct ow_view *view)
+{
+    int64_t z = ((int64_t)distance << 30) >> view->camera_shift;
+    return z > INT32_MAX ? INT32_MAX : (int32_t)z;
+}
+
+static void make_depth_cue(struct ow_shader *shader, const struct ow_look *look,
+                           const struct ow_view *view)
+{
+    shader->has_depth = look->depth_far > 0;
+    if (shader->has_depth) {
+        int32_t near = to_depth(look->depth_near, view);
+        shader->depth_far = to_depth(look->depth_far, view);
+        uint32_t range = (uint32_t)shader->depth_far - (uint32_t)near;
+        shader->depth_scale = ow_scale_of(65536, range == 0 ? 1 : range);
+    }
+}
+
 void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
                     const struct ow_view *view)
 {
@@ -69,6 +88,13 @@ void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
     shader->light_q8 = look->light.intensity_q8;
     shader->specular_q8 = look->specular_q8;
     shader->shininess = look->shininess;
+    shader->map = look->map;
+    shader->background = look->background;
+    shader->foreground = look->foreground;
+    shader->view = view;
+    make_depth_cue(shader, look, view);
+    shader->is_plain = look->map == OW_MAP_NONE && !shader->has_depth;
+    shader->parts = (look->shade == OW_SHADE_PHONG ? 3u : 1u) + shader->has_depth;
     int32_t viewer[3];
     to_model(viewer, viewer_q14, view);
     for (int i = 0; i < 3; i++) {
@@ -125,6 +151,58 @@ uint32_t ow_face_colour(const struct ow_shader *shader, const struct ow_tree *tr
     return ow_read_u32(bytes, tree->colours_at + number * OW_COLOUR_BYTES);
 }
 
+/* How much of its colour a point at this depth shows, 0 .. 65536. */
+static int32_t depth_share(const struct ow_shader *shader, int32_t z)
+{
+    int64_t left = (int64_t)shader->depth_far - z; /* below 2^32, the mantissa below 2^31 */
+    int64_t share = (left * (int64_t)shader->depth_scale.mantissa) >> shader->depth_scale.exponent;
+    return share < 0 ? 0 : share > 65536 ? 65536 : (int32_t)share;
+}
+
+static int32_t vertex_share(const struct ow_shader *shader, const struct ow_tree *tree,
+                            uint32_t vertex)
+{
+    return depth_share(shader, ow_to_camera(tree, shader->view, vertex).z);
+}
+
+/* The share of a face's nearest corner. */
+static int32_t face_share(const struct ow_shader *shader, const struct ow_tree *tree,
+                          const struct ow_face *face)
+{
+    uint32_t corners = ow_read_u8(tree->bytes, face->at);
+    int32_t most = 0;
+    for (uint32_t i = 0; i < corners; i++) {
+        int32_t share = vertex_share(shader, tree, ow_corner(tree, face->at, i));
+        most = share > most ? share : most;
+    }
+    return most;
+}
+
+static uint32_t add_white(uint32_t colour, uint32_t shift, uint32_t white)
+{
+    uint32_t sum = (colour >> shift & 255) + white;
+    return (sum > 255 ? 255 : sum) << shift;
+}
+
+static uint32_t add_whites(uint32_t colour, uint32_t white)
+{
+    return add_white(colour, 16, white) | add_white(colour, 8, white) | add_white(colour, 0, white);
+}
+
+/* What is seen of a colour under an intensity 0 .. 256 and a highlight, as far away as share says. */
+static uint32_t finish(const struct ow_shader *shader, uint32_t colour, uint32_t intensity,
+                       uint32_t white, int32_t share_q16)
+{
+    if (shader->map != OW_MAP_NONE) {
+        intensity += white;
+        colour = ow_map_colour(shader->map, intensity > FULL ? FULL : intensity);
+    } else {
+        colour = add_whites(scale_colour(colour, intensity), white);
+    }
+    return shader->has_depth ? ow_mix(shader->background, colour, (uint32_t)share_q16 >> 8)
+                             : colour;
+}
+
 uint32_t ow_shade_face(const struct ow_shader *shader, const struct ow_tree *tree,
                        const struct ow_face *face)
 {
@@ -132,15 +210,27 @@ uint32_t ow_shade_face(const struct ow_shader *shader, const struct ow_tree *tre
     if (shader->shade == OW_SHADE_ID) {
         return colour;
     }
+    int32_t share = shader->has_depth ? face_share(shader, tree, face) : 0;
+    if (shader->shade == OW_SHADE_LINES) {
+        colour = shader->foreground;
+        return shader->has_depth ? ow_mix(shader->background, colour, (uint32_t)share >> 8)
+                                 : colour;
+    }
     int32_t intensity = intensity_q16(shader, tree->bytes, face->at + 1, face->reverse);
-    return scale_colour(colour, (uint32_t)intensity >> 8);
+    if (shader->is_plain) {
+        return scale_colour(colour, (uint32_t)intensity >> 8);
+    }
+    return finish(shader, colour, (uint32_t)intensity >> 8, 0, share);
 }
 
 struct ow_corner_light ow_shade_corner(const struct ow_shader *shader, const struct ow_tree *tree,
                                        uint32_t vertex, bool reverse)
 {
     uint32_t at = tree->normals_at + vertex * OW_NORMAL_BYTES;
-    struct ow_corner_light light = { { 0, 0, 0 } };
+    struct ow_corner_light light = { { 0, 0, 0, 0 } };
+    if (shader->has_depth) {
+        light.part[shader->parts - 1] = vertex_share(shader, tree, vertex);
+    }
     if (shader->shade == OW_SHADE_GOURAUD) {
         light.part[0] = intensity_q16(shader, tree->bytes, at, reverse);
         return light;
@@ -155,12 +245,6 @@ struct ow_corner_light ow_shade_corner(const struct ow_shader *shader, const str
 static int32_t dot_q14(const int32_t a[3], const int32_t b[3])
 {
     return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14;
-}
-
-static uint32_t add_white(uint32_t colour, uint32_t shift, uint32_t white)
-{
-    uint32_t sum = (colour >> shift & 255) + white;
-    return (sum > 255 ? 255 : sum) << shift;
 }
 
 static uint32_t shade_phong(const struct ow_shader *shader, uint32_t colour,
@@ -180,8 +264,11 @@ static uint32_t shade_phong(const struct ow_shader *shader, uint32_t colour,
         }
         white = ((uint32_t)gleam * (uint32_t)shader->specular_q8 * 255) >> 22;
     }
-    colour = scale_colour(colour, intensity > FULL ? FULL : (uint32_t)intensity);
-    return add_white(colour, 16, white) | add_white(colour, 8, white) | add_white(colour, 0, white);
+    uint32_t bounded = intensity > FULL ? FULL : (uint32_t)intensity;
+    if (shader->is_plain) {
+        return add_whites(scale_colour(colour, bounded), white);
+    }
+    return finish(shader, colour, bounded, white, light->part[3]);
 }
 
 uint32_t ow_shade_pixel(const struct ow_shader *shader, uint32_t colour,
@@ -190,5 +277,7 @@ uint32_t ow_shade_pixel(const struct ow_shader *shader, uint32_t colour,
     if (shader->shade == OW_SHADE_PHONG) {
         return shade_phong(shader, colour, light);
     }
-    return scale_colour(colour, (uint32_t)light->part[0] >> 8);
+    uint32_t intensity = (uint32_t)light->part[0] >> 8;
+    return shader->is_plain ? scale_colour(colour, intensity)
+                            : finish(shader, colour, intensity, 0, light->part[1]);
 }

@@ -1,27 +1,82 @@
 /* SPDX-License-Identifier: 0BSD */
-/* Surfaces: what they share. */
+/* Surfaces: what they share, above all how a run of pixels is written. */
 #include "ow_surface.h"
+
+#include "ow_dither.h"
 
 enum { CHUNK = 32 }; /* pixels shaded before they are stored */
 
-void ow_write_smooth_run(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
+static uint32_t shade_pixel(const struct ow_surface *surface, uint32_t x)
 {
-    struct ow_gradient *gradient = surface->gradient;
+    const struct ow_gradient *gradient = surface->gradient;
+    struct ow_corner_light light;
+    for (uint32_t i = 0; i < gradient->parts; i++) {
+        light.part[i] = ow_ramp_value(&gradient->ramp[i], x);
+    }
+    return ow_shade_pixel(surface->shader, surface->rgb, &light);
+}
+
+uint32_t ow_smooth_pixel(struct ow_surface *surface, uint32_t line, uint32_t x)
+{
+    if (surface->gradient->line != (int32_t)line) {
+        ow_gradient_line(surface->gradient, (int32_t)line);
+    }
+    return shade_pixel(surface, x);
+}
+
+static void write_smooth(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
+{
     uint8_t *row = ow_line_pixels(surface->target, line);
+    const struct ow_pixel_format *format = surface->target->format;
     uint32_t rgb[CHUNK];
-    if (gradient->line != (int32_t)line) {
-        ow_gradient_line(gradient, (int32_t)line);
+    if (surface->gradient->line != (int32_t)line) {
+        ow_gradient_line(surface->gradient, (int32_t)line);
     }
     while (first < end) {
         uint32_t stop = end - first > CHUNK ? first + CHUNK : end;
         for (uint32_t x = first; x < stop; x++) {
-            struct ow_corner_light light;
-            for (uint32_t i = 0; i < gradient->parts; i++) {
-                light.part[i] = ow_ramp_value(&gradient->ramp[i], x);
-            }
-            rgb[x - first] = ow_shade_pixel(surface->shader, surface->colour, &light);
+            rgb[x - first] = shade_pixel(surface, x);
         }
-        surface->target->format->store(row, first, stop, rgb);
+        if (surface->dither) {
+            ow_dither_store(format, row, line, first, stop, rgb);
+        } else {
+            format->store(row, first, stop, rgb);
+        }
         first = stop;
+    }
+}
+
+static void write_dithered(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
+{
+    ow_dither_fill(surface->target->format, ow_line_pixels(surface->target, line), line, first, end,
+                   surface->rgb);
+}
+
+void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look)
+{
+    surface->dither =
+        look->dither && look->shade != OW_SHADE_ID && surface->target->format->dither != NULL;
+    surface->background = look->background;
+    surface->write = surface->gradient != NULL ? write_smooth
+                     : surface->dither         ? write_dithered
+                                               : NULL;
+}
+
+void ow_surface_become_background(struct ow_surface *surface, uint32_t packed)
+{
+    surface->rgb = surface->background;
+    surface->colour = packed;
+    surface->gradient = NULL;
+    surface->write = surface->dither ? write_dithered : NULL;
+}
+
+void ow_write_background(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end,
+                         uint32_t packed)
+{
+    uint8_t *row = ow_line_pixels(surface->target, line);
+    if (surface->dither) {
+        ow_dither_fill(surface->target->format, row, line, first, end, surface->background);
+    } else {
+        surface->target->format->fill(row, first, end, packed);
     }
 }

@@ -172,8 +172,7 @@ static void end(struct ow_surface *surface, uint32_t background)
 {
     uint32_t pixels = surface->pixels_written;
     uint32_t spans = surface->spans_written;
-    surface->colour = background;
-    surface->gradient = NULL;
+    ow_surface_become_background(surface, background);
     for (uint32_t row = 0; row < surface->target->line_count; row++) {
         if (surface->open_pixels[row] > 0) {
             write_unlit(surface, surface->target->first_line + row,

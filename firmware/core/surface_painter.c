@@ -6,7 +6,7 @@ static void begin(struct ow_surface *surface, uint32_t background)
 {
     const struct ow_target *target = surface->target;
     for (uint32_t i = 0; i < target->line_count; i++) {
-        target->format->fill(target->pixels + i * target->stride, 0, surface->width, background);
+        ow_write_background(surface, target->first_line + i, 0, surface->width, background);
     }
     surface->pixels_background += surface->width * target->line_count;
     surface->lines_open = target->line_count; /* for ever: what is painted can be painted over */

@@ -51,12 +51,21 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
         workspace->clip[i] = cut(&cutter, capacity, sizeof *workspace->clip[i]);
     }
     workspace->edges = cut(&cutter, capacity, sizeof *workspace->edges);
-    workspace->spans = cut(&cutter, config->lines, sizeof *workspace->spans);
+    workspace->span_capacity = config->lines * (config->coverage ? 4u : 1u);
+    workspace->spans = cut(&cutter, workspace->span_capacity, sizeof *workspace->spans);
     workspace->open_pixels = cut(&cutter, config->lines, sizeof *workspace->open_pixels);
     workspace->unlit = cut(&cutter, (uint64_t)words * config->lines, sizeof *workspace->unlit);
     uint32_t tile_rows = ow_tiles(config->lines);
     workspace->open_tiles = cut(&cutter, (uint64_t)ow_tile_words(config->width) * tile_rows,
                                 sizeof *workspace->open_tiles);
+    workspace->samples = NULL;
+    workspace->sampled = NULL;
+    if (config->coverage) {
+        workspace->samples =
+            cut(&cutter, (uint64_t)config->width * config->lines, sizeof *workspace->samples);
+        workspace->sampled =
+            cut(&cutter, (uint64_t)words * config->lines, sizeof *workspace->sampled);
+    }
     workspace->listed = cut(&cutter, config->listed_faces, sizeof *workspace->listed);
     workspace->line_heads =
         cut(&cutter, config->listed_faces > 0 ? config->height : 0, sizeof *workspace->line_heads);

@@ -9,21 +9,10 @@ static void probe(const struct ow_viewer *viewer, enum ow_probe point)
     }
 }
 
-static void add_stats(struct ow_stats *sum, const struct ow_stats *band)
-{
-    sum->polygons_visited += band->polygons_visited;
-    sum->polygons_painted += band->polygons_painted;
-    sum->pixels_written += band->pixels_written;
-    sum->pixels_background += band->pixels_background;
-    sum->spans += band->spans;
-    sum->polygons_dropped += band->polygons_dropped;
-}
-
 /* Draws lines first .. first+count-1 to pixels. A capacity that ran out is noted, not a failure. */
 static int draw_band(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride, uint16_t first,
                      uint16_t count)
 {
-    struct ow_stats stats = { 0 };
     struct ow_target target = {
         .pixels = pixels,
         .stride = stride,
@@ -32,10 +21,8 @@ static int draw_band(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride,
         .format = viewer->panel.format,
     };
     probe(viewer, OW_PROBE_DRAW_BEGIN);
-    enum ow_status status = ow_draw(viewer->config.tree, &viewer->view, &viewer->look, &target,
-                                    &viewer->workspace, &stats);
+    enum ow_status status = ow_draw_band(&viewer->workspace, &target, &viewer->stats);
     probe(viewer, OW_PROBE_DRAW_END);
-    add_stats(&viewer->stats, &stats);
     if (status == OW_CAPACITY) {
         viewer->drawn = OW_CAPACITY;
         return OW_OK;
@@ -139,7 +126,13 @@ int viewer_present(struct ow_viewer *viewer)
 {
     viewer->stats = (struct ow_stats){ 0 };
     viewer->drawn = OW_OK;
+    probe(viewer, OW_PROBE_DRAW_BEGIN);
     int status =
-        ow_panel_lends(viewer->config.panel) ? draw_to_lent(viewer) : draw_to_bands(viewer);
+        ow_draw_begin(viewer->config.tree, &viewer->view, &viewer->look, &viewer->workspace);
+    probe(viewer, OW_PROBE_DRAW_END);
+    if (status == OW_OK) {
+        status =
+            ow_panel_lends(viewer->config.panel) ? draw_to_lent(viewer) : draw_to_bands(viewer);
+    }
     return status < 0 ? status : OW_OK;
 }

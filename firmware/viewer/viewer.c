@@ -39,6 +39,8 @@ static uint32_t make_layout(struct layout *layout, const struct ow_viewer_config
         .width = info->width,
         .lines = (uint16_t)lines,
         .cached_vertices = config->cached_vertices,
+        .listed_faces = config->listed_faces,
+        .height = info->height,
     };
     uint32_t workspace = ow_workspace_bytes_needed(config->tree, &layout->workspace);
     bool lends = ow_panel_lends(config->panel);

@@ -74,6 +74,7 @@ struct ow_viewer_config {
     uint16_t band_lines;      /* drawn at a time, rounded up to the panel's alignment; 0: all */
     uint8_t bands;            /* 1, or 2: draw one while the panel takes the other; 0 means 1 */
     uint32_t cached_vertices; /* as in struct ow_workspace_config */
+    uint32_t listed_faces;    /* likewise; 0 unless the order is OW_SCAN_LINE */
 
     /* Devices. Panel and clock are mandatory, the others may be NULL. All outlive the viewer. */
     const struct ow_panel *panel;

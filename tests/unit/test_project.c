@@ -120,10 +120,10 @@ static void screen_points_are_rounded_to_the_nearest(void **state)
             double z = view.projection == OW_PERSPECTIVE ? along(view.forward, &view, points.v[i]) / unit : 1;
             double slope = view.projection == OW_PERSPECTIVE ? fmax(fabs(x), fabs(y)) / z : 0;
             double bound = 0.5 + 1.1 * (1 + slope) * scale / z + ldexp(OW_GUARD, -26);
-            assert_true(fabs(s.x - (8 * view.width + x * scale / z)) <= bound);
-            assert_true(fabs(s.y - (8 * view.height - y * scale / z)) <= bound);
-            assert_true(abs(s.x - 8 * view.width) <= OW_GUARD);
-            assert_true(abs(s.y - 8 * view.height) <= OW_GUARD);
+            assert_true(fabs(s.x - (OW_SUB / 2 * view.width + x * scale / z)) <= bound);
+            assert_true(fabs(s.y - (OW_SUB / 2 * view.height - y * scale / z)) <= bound);
+            assert_true(abs(s.x - OW_SUB / 2 * view.width) <= OW_GUARD);
+            assert_true(abs(s.y - OW_SUB / 2 * view.height) <= OW_GUARD);
         }
     }
     assert_true(inside > 10000);
@@ -197,8 +197,8 @@ static void clipped_outlines_are_inside(void **state)
             assert_true(view.projection == OW_PARALLEL || out.points[i].z >= view.near_z);
             assert_true(llabs(out.points[i].x) <= reach && llabs(out.points[i].y) <= reach);
             struct ow_outline_point s = ow_to_screen(&view, out.points[i]);
-            assert_true(abs(s.x - 8 * view.width) <= OW_GUARD);
-            assert_true(abs(s.y - 8 * view.height) <= OW_GUARD);
+            assert_true(abs(s.x - OW_SUB / 2 * view.width) <= OW_GUARD);
+            assert_true(abs(s.y - OW_SUB / 2 * view.height) <= OW_GUARD);
         }
         assert_true(!all_inside || out.count == count);
         whole += all_inside;

@@ -139,8 +139,8 @@ static void check_outline(const struct ow_outline_point *points, uint32_t count)
 
 static struct ow_outline_point random_point(int reach)
 {
-    struct ow_outline_point p = { 8 * WIDTH + random_in(-reach, reach),
-                                  8 * HEIGHT + random_in(-reach, reach) };
+    struct ow_outline_point p = { OW_SUB / 2 * WIDTH + random_in(-reach, reach),
+                                  OW_SUB / 2 * HEIGHT + random_in(-reach, reach) };
     if (random_below(4) == 0) { /* on a pixel's centre */
         p.x = (p.x & ~15) + 8;
         p.y = (p.y & ~15) + 8;
@@ -150,8 +150,8 @@ static struct ow_outline_point random_point(int reach)
 
 static int random_reach(void)
 {
-    static const int reaches[] = { 20, 100, 400, 700, 3000, OW_GUARD };
-    return reaches[random_below(6)];
+    static const int reaches[] = { 20, 300, 1600, 6400, 11200, 48000, OW_GUARD };
+    return reaches[random_below(7)];
 }
 
 /* ---- tests ------------------------------------------------------------------------------------ */
@@ -190,16 +190,16 @@ static void monotone_outlines_cover_their_windings(void **state)
         struct ow_outline_point p[2 * MOST];
         uint32_t half = 2 + random_below(8), count = 0;
         int reach = random_reach();
-        int y = 8 * HEIGHT - reach / 2;
+        int y = OW_SUB / 2 * HEIGHT - reach / 2;
         for (uint32_t k = 0; k < half; k++) {
             y += random_in(0, 2 * reach / (int)half);
-            y = y > 8 * HEIGHT + reach ? 8 * HEIGHT + reach : y;
-            p[count++] = (struct ow_outline_point){ 8 * WIDTH + random_in(-reach, reach), y };
+            y = y > OW_SUB / 2 * HEIGHT + reach ? OW_SUB / 2 * HEIGHT + reach : y;
+            p[count++] = (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
         }
         for (uint32_t k = 0; k < half; k++) {
             y -= random_in(0, 2 * reach / (int)half);
-            y = y < 8 * HEIGHT - reach ? 8 * HEIGHT - reach : y;
-            p[count++] = (struct ow_outline_point){ 8 * WIDTH + random_in(-reach, reach), y };
+            y = y < OW_SUB / 2 * HEIGHT - reach ? OW_SUB / 2 * HEIGHT - reach : y;
+            p[count++] = (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
         }
         check_outline(p, count);
     }
@@ -210,8 +210,8 @@ static void holes_stay_empty(void **state)
 {
     (void)state;
     static const struct ow_outline_point p[] = {
-        { 100, 100 }, { 100, 600 }, { 700, 600 }, { 700, 100 }, { 100, 100 },
-        { 300, 300 }, { 500, 300 }, { 500, 450 }, { 300, 450 }, { 300, 300 } };
+        { 1600, 1600 }, { 1600, 9600 }, { 11200, 9600 }, { 11200, 1600 }, { 1600, 1600 },
+        { 4800, 4800 }, { 8000, 4800 }, { 8000, 7200 }, { 4800, 7200 }, { 4800, 4800 } };
     static struct canvas canvas;
     clear(&canvas);
     scan(&canvas, p, 10, OW_WINDING_POSITIVE, 0);

@@ -143,7 +143,7 @@ static void units_and_scale_are_as_documented(void **state)
             assert_true(fabs(scale / unit / due - 1) < 1e-8);
         } else {
             double half = pi * camera.fov / 4294967296.0;
-            double due = 8.0 * camera.height_pixels / tan(half);
+            double due = 128.0 * camera.height_pixels / tan(half);
             /* Sine and cosine are right within 2^-15 each. */
             double bound = ldexp(1, -15) * (1 / sin(half) + 1 / cos(half)) + 1e-8;
             assert_true(fabs(scale / due - 1) < bound);

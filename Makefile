@@ -75,7 +75,7 @@ endef
 link_program = $(link) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) \
                -Wl,--end-group
 
-png_libs    = $(call pkg,--libs,libpng) -lgif
+png_libs    = $(call pkg,--libs,libpng) -lgif -pthread
 assimp_libs = $(call pkg,--libs,assimp)
 json_libs   = $(call pkg,--libs,libcjson)
 test_libs   = $(call pkg,--libs,cmocka) $(png_libs) $(assimp_libs) $(json_libs) -lm

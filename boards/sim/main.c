@@ -14,6 +14,7 @@
 #include "sim/sim_clock.h"
 #include "sim/sim_panel.h"
 #include "sim/sim_script.h"
+#include "sim/sim_workers.h"
 #include "tools/common/fail.h"
 #include "tools/common/outfile.h"
 #include "tree_file.h"
@@ -33,6 +34,8 @@ struct run {
     struct sim_script script;
     struct ow_input input;
     struct ow_wait wait;
+    struct sim_workers *pool; /* NULL: one thread */
+    struct ow_workers workers;
     struct ow_viewer_config config;
     struct ow_viewer viewer;
     void *memory;
@@ -116,6 +119,14 @@ static void start_viewer(struct run *run)
     config->band_lines = (uint16_t)settings->band_lines;
     config->listed_faces =
         settings->look.order == OW_SCAN_LINE ? ow_listed_faces_max(config->tree) : 0;
+    if (settings->threads > 1) {
+        run->pool = sim_workers_start(settings->threads);
+        if (run->pool == NULL) {
+            fail(1, NULL, 0, "the system refuses %u threads, ask for fewer", settings->threads);
+        }
+        run->workers = sim_workers_seam(run->pool);
+        config->workers = &run->workers;
+    }
     config->panel = &run->panel.panel;
     config->clock = &run->clock;
     if (run->views.list != NULL) {
@@ -223,6 +234,7 @@ static void finish(struct run *run)
 
 static void close_all(struct run *run)
 {
+    sim_workers_stop(run->pool);
     free(run->memory);
     sim_panel_close(&run->panel);
     sim_script_free(&run->script);

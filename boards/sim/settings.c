@@ -156,9 +156,7 @@ static void check_look(const struct settings *settings, const struct raw *raw)
 
 static void read_look(struct settings *settings, const struct raw *raw)
 {
-    if (raw->threads != 1) {
-        settings_wrong("--threads above 1 is not there yet");
-    }
+    settings->threads = (uint32_t)raw->threads;
     struct ow_look *look = &settings->look;
     look->order = raw->order == ORDER_AUTO ? OW_FRONT_TO_BACK : (enum ow_order)raw->order;
     look->shade = (enum ow_shade)raw->shade;

@@ -31,6 +31,7 @@ struct settings {
     double depth_cue[2]; /* model units; both 0: none */
     const struct ow_pixel_format *format;
     enum sim_panel_kind panel;
+    uint32_t threads;
     uint64_t band_lines; /* 0: all */
 
     const char *output; /* pattern, or "-", or NULL */

@@ -2,6 +2,8 @@
 /* Present: draws the view into memory that the panel lends, or band by band into the caller's. */
 #include "stages.h"
 
+enum { SLICES = 2 }; /* for each worker */
+
 static void probe(const struct ow_viewer *viewer, enum ow_probe point)
 {
     if (viewer->config.probe != NULL) {
@@ -9,25 +11,104 @@ static void probe(const struct ow_viewer *viewer, enum ow_probe point)
     }
 }
 
-/* Draws lines first .. first+count-1 to pixels. A capacity that ran out is noted, not a failure. */
-static int draw_band(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride, uint16_t first,
-                     uint16_t count)
+/* Lines that the workers draw, in slices that they take in turn. */
+struct slices {
+    struct ow_viewer *viewer;
+    uint8_t *pixels; /* NULL: the frame is only begun */
+    uint32_t stride;
+    uint16_t first;
+    uint16_t count;
+    uint16_t lines; /* of a slice */
+};
+
+static int draw_slices(const struct slices *slices, uint32_t number)
 {
-    struct ow_target target = {
-        .pixels = pixels,
-        .stride = stride,
-        .first_line = first,
-        .line_count = count,
-        .format = viewer->panel.format,
-    };
+    const struct ow_viewer *viewer = slices->viewer;
+    struct ow_viewer_worker *worker = &viewer->worker[number];
+    if (slices->pixels == NULL) {
+        worker->stats = (struct ow_stats){ 0 };
+        return ow_draw_begin(viewer->config.tree, &viewer->view, &viewer->look, &worker->workspace);
+    }
+    int result = OW_OK;
+    uint32_t step = viewer->workers * slices->lines;
+    for (uint32_t at = number * slices->lines; at < slices->count; at += step) {
+        uint32_t left = slices->count - at;
+        struct ow_target target = {
+            .pixels = slices->pixels + at * slices->stride,
+            .stride = slices->stride,
+            .first_line = (uint16_t)(slices->first + at),
+            .line_count = (uint16_t)(left < slices->lines ? left : slices->lines),
+            .format = viewer->panel.format,
+        };
+        int status = ow_draw_band(&worker->workspace, &target, &worker->stats);
+        result = status < 0 ? status : result;
+    }
+    return result;
+}
+
+static void slices_job(void *context, uint32_t number)
+{
+    const struct slices *slices = context;
+    slices->viewer->worker[number].status = draw_slices(slices, number);
+}
+
+static void add_stats(struct ow_stats *sum, const struct ow_stats *part)
+{
+    sum->polygons_visited += part->polygons_visited;
+    sum->polygons_painted += part->polygons_painted;
+    sum->pixels_written += part->pixels_written;
+    sum->pixels_background += part->pixels_background;
+    sum->spans += part->spans;
+    sum->nodes_skipped += part->nodes_skipped;
+    sum->polygons_unlisted += part->polygons_unlisted;
+    sum->polygons_dropped += part->polygons_dropped;
+}
+/* Has all workers do their part. A capacity that ran out is noted, not a failure. */
+static int draw_together(struct slices *slices)
+{
+    struct ow_viewer *viewer = slices->viewer;
+    const struct ow_workers *workers = viewer->config.workers;
+    int status = OW_OK;
     probe(viewer, OW_PROBE_DRAW_BEGIN);
-    enum ow_status status = ow_draw_band(&viewer->workspace, &target, &viewer->stats);
+    if (viewer->workers > 1) {
+        status = workers->ops->run(workers->device, slices_job, slices);
+    } else {
+        slices_job(slices, 0);
+    }
     probe(viewer, OW_PROBE_DRAW_END);
-    if (status == OW_CAPACITY) {
-        viewer->drawn = OW_CAPACITY;
-        return OW_OK;
+    viewer->stats = (struct ow_stats){ 0 };
+    for (uint32_t i = 0; i < viewer->workers; i++) {
+        const struct ow_viewer_worker *worker = &viewer->worker[i];
+        add_stats(&viewer->stats, &worker->stats);
+        if (worker->status == OW_CAPACITY) {
+            viewer->drawn = OW_CAPACITY;
+        } else if (worker->status < 0) {
+            status = worker->status;
+        }
     }
     return status;
+}
+
+static int begin_frame(struct ow_viewer *viewer)
+{
+    struct slices slices = { .viewer = viewer };
+    return draw_together(&slices);
+}
+
+/* Draws lines first .. first+count-1 to pixels: several slices for each worker even out the work. */
+static int draw_lines(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride, uint16_t first,
+                      uint16_t count)
+{
+    uint32_t parts = viewer->workers > 1 ? viewer->workers * SLICES : 1;
+    struct slices slices = {
+        .viewer = viewer,
+        .pixels = pixels,
+        .stride = stride,
+        .first = first,
+        .count = count,
+        .lines = (uint16_t)((count + parts - 1) / parts),
+    };
+    return draw_together(&slices);
 }
 
 static uint16_t lines_from(const struct ow_viewer *viewer, uint16_t first)
@@ -87,7 +168,7 @@ static int draw_to_bands(struct ow_viewer *viewer)
         }
         uint8_t *pixels = viewer->band[turn];
         turn = (turn + 1) % bands;
-        status = draw_band(viewer, pixels, viewer->band_stride, first, count);
+        status = draw_lines(viewer, pixels, viewer->band_stride, first, count);
         if (status < 0) {
             break;
         }
@@ -115,7 +196,7 @@ static int draw_to_lent(struct ow_viewer *viewer)
          first = (uint16_t)(first + count)) {
         count = lines_from(viewer, first);
         uint8_t *pixels = buffer.pixels + (uint32_t)first * buffer.stride;
-        status = draw_band(viewer, pixels, buffer.stride, first, count);
+        status = draw_lines(viewer, pixels, buffer.stride, first, count);
     }
     struct ow_panel_rect whole = { 0, 0, viewer->panel.width, viewer->panel.height };
     int shown = panel->ops->show(panel->device, &whole, status < 0 ? 0 : 1);
@@ -126,10 +207,7 @@ int viewer_present(struct ow_viewer *viewer)
 {
     viewer->stats = (struct ow_stats){ 0 };
     viewer->drawn = OW_OK;
-    probe(viewer, OW_PROBE_DRAW_BEGIN);
-    int status =
-        ow_draw_begin(viewer->config.tree, &viewer->view, &viewer->look, &viewer->workspace);
-    probe(viewer, OW_PROBE_DRAW_END);
+    int status = begin_frame(viewer);
     if (status == OW_OK) {
         status =
             ow_panel_lends(viewer->config.panel) ? draw_to_lent(viewer) : draw_to_bands(viewer);

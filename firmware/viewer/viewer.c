@@ -6,7 +6,9 @@
 /* How the memory is cut up. */
 struct layout {
     struct ow_workspace_config workspace;
-    uint32_t workspace_bytes; /* a multiple of 8 */
+    uint32_t workspace_bytes; /* of each worker, a multiple of 8 */
+    uint32_t workers;
+    uint32_t worker_bytes;
     uint32_t stride;
     uint32_t band_bytes; /* of one band, a multiple of 8; 0: the panel lends */
     uint32_t bands;
@@ -19,6 +21,12 @@ static uint32_t round_up(uint32_t value, uint32_t step)
 
 static int check_config(const struct ow_viewer_config *config)
 {
+    if (config->workers != NULL) {
+        int status = ow_workers_check(config->workers);
+        if (status < 0) {
+            return status;
+        }
+    }
     if (config->tree == NULL || config->views == 0 || config->bands > 2 ||
         config->binding_count > OW_BINDINGS_MAX || config->quarter_turns > 3) {
         return OW_ARGUMENT;
@@ -39,6 +47,7 @@ static uint32_t make_layout(struct layout *layout, const struct ow_viewer_config
         .width = info->width,
         .lines = (uint16_t)lines,
         .cached_vertices = config->cached_vertices,
+        .coverage = config->look.coverage,
         .listed_faces = config->listed_faces,
         .height = info->height,
     };
@@ -51,7 +60,10 @@ static uint32_t make_layout(struct layout *layout, const struct ow_viewer_config
         return 0;
     }
     layout->workspace_bytes = round_up(workspace, 8);
-    uint64_t total = layout->workspace_bytes + (uint64_t)layout->band_bytes * layout->bands;
+    layout->workers = config->workers != NULL ? config->workers->count : 1;
+    layout->worker_bytes = round_up(layout->workers * (uint32_t)sizeof(struct ow_viewer_worker), 8);
+    uint64_t total = layout->worker_bytes + (uint64_t)layout->workspace_bytes * layout->workers +
+                     (uint64_t)layout->band_bytes * layout->bands;
     return total > UINT32_MAX ? 0 : (uint32_t)total;
 }
 
@@ -112,14 +124,23 @@ static int place(struct ow_viewer *viewer, void *memory, uint32_t bytes)
     if (memory == NULL || bytes < needed) {
         return OW_MEMORY;
     }
-    uint8_t *free_memory = (uint8_t *)memory + layout.workspace_bytes;
+    uint8_t *free_memory = (uint8_t *)memory + layout.worker_bytes;
+    viewer->worker = memory;
+    for (uint32_t i = 0; i < layout.workers; i++) {
+        int status = ow_workspace_place(&viewer->worker[i].workspace, viewer->config.tree,
+                                        &layout.workspace, free_memory, layout.workspace_bytes);
+        if (status < 0) {
+            return status;
+        }
+        free_memory += layout.workspace_bytes;
+    }
+    viewer->workers = layout.workers;
     viewer->band[0] = free_memory;
     viewer->band[1] = free_memory + (layout.bands - 1) * layout.band_bytes;
     viewer->band_stride = layout.stride;
     viewer->band_lines = layout.workspace.lines;
     viewer->config.bands = (uint8_t)layout.bands;
-    return ow_workspace_place(&viewer->workspace, viewer->config.tree, &layout.workspace, memory,
-                              layout.workspace_bytes);
+    return OW_OK;
 }
 
 int ow_viewer_start(struct ow_viewer *viewer, const struct ow_viewer_config *config, void *memory,

@@ -14,6 +14,7 @@
 #include "hal/input.h"
 #include "hal/panel.h"
 #include "hal/wait.h"
+#include "hal/workers.h"
 #include "ow_draw.h"
 
 /* What a control does. */
@@ -81,11 +82,19 @@ struct ow_viewer_config {
     const struct ow_clock *clock;
     const struct ow_input *input;
     const struct ow_wait *wait;
+    const struct ow_workers *workers; /* NULL: one; each needs a workspace */
     uint8_t quarter_turns; /* of the picture, clockwise, 0 .. 3: by the panel if it can */
     uint32_t timeout_us;   /* for pixels on their way to the panel; 0: a second */
 
     void (*probe)(void *context, enum ow_probe point); /* NULL: nobody measures */
     void *probe_context;
+};
+
+/* What each worker has of its own. Private. */
+struct ow_viewer_worker {
+    struct ow_workspace workspace;
+    struct ow_stats stats;
+    int status;
 };
 
 /* Fields down to `stats` are for reading, the rest is private. */
@@ -100,7 +109,8 @@ struct ow_viewer {
     struct ow_look look; /* the configured one, its light turned with the picture */
     struct ow_viewer_config config;
     struct ow_panel_info panel;
-    struct ow_workspace workspace;
+    struct ow_viewer_worker *worker; /* workers of them, in the memory given */
+    uint32_t workers;
     uint8_t *band[2];
     uint32_t band_stride; /* bytes */
     uint16_t band_lines;

@@ -311,8 +311,12 @@ uint32_t sim_panel_crc(const struct sim_panel *panel, uint32_t crc)
     const struct ow_pixel_format *format = panel->config.format;
     uint8_t row[4 * OW_PANEL_SIZE_MAX];
     bool spare = format->bits == 32 && format->used != 0xFFFFFFFFu;
+    uint32_t tail = panel->width * format->bits % 8; /* bits of the last byte, if it is not full */
     for (uint32_t y = 0; y < panel->height; y++) {
         memcpy(row, panel->screen + (size_t)y * panel->row_bytes, panel->row_bytes);
+        if (tail != 0) {
+            row[panel->row_bytes - 1] &= (uint8_t)(0xFF00u >> tail);
+        }
         for (uint32_t x = 0; spare && x < panel->width; x++) {
             for (uint32_t i = 0; i < 4; i++) { /* 32-bit words are little-endian */
                 row[4 * x + i] &= (uint8_t)(format->used >> (8 * i));

@@ -5,6 +5,7 @@
  */
 #include "ow_draw.h"
 
+#include "ow_coverage.h"
 #include "ow_frame.h"
 #include "ow_lines.h"
 #include "ow_memory.h"
@@ -34,7 +35,7 @@ static bool workspace_fits(const struct ow_workspace *workspace, const struct ow
                            const struct ow_view *view)
 {
     return view->width <= workspace->width && workspace->capacity >= 2 * tree->max_corners &&
-           (workspace->cache_mask != 0xFFFFFFFFu || workspace->cache_entries >= tree->vertex_count);
+           (workspace->cache_mask != OW_CACHE_ALL || workspace->cache_entries >= tree->vertex_count);
 }
 
 /* Begins the walk; what the last one counted is added up. */
@@ -71,11 +72,16 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     frame->workspace = workspace;
     frame->window = (struct ow_window){ 0, view->height, view->width };
     frame->tag = next_stamp(workspace);
-    frame->draw_face = look->shade == OW_SHADE_LINES ? ow_lines_draw_face : NULL;
+    frame->draw_face = look->shade == OW_SHADE_LINES ? ow_lines_draw_face
+                       : look->coverage              ? ow_coverage_draw_face
+                                                     : NULL;
     ow_frustum_make(&frame->frustum, view);
     ow_shader_make(&frame->shader, look, view);
     enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
+    if (status == OW_OK && workspace->cache_mask == OW_CACHE_ALL) {
+        ow_project_all(tree, view, workspace->cache);
+    }
     if (status == OW_OK && look->order == OW_SCAN_LINE) {
         status = ow_scan_lines_begin(frame);
         end_walk(frame);
@@ -97,6 +103,8 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     surface->unlit = workspace->unlit;
     surface->open_pixels = workspace->open_pixels;
     surface->open_tiles = workspace->open_tiles;
+    surface->samples = workspace->samples;
+    surface->sampled = workspace->sampled;
     surface->words_in_line = (surface->width + 31) / 32;
     surface->shader = &frame->shader;
     surface->gradient = ow_shade_is_smooth(frame->shader.shade) ? &frame->gradient : NULL;
@@ -114,8 +122,10 @@ void ow_frame_walk(struct ow_frame *frame)
 
 static void draw_band(struct ow_frame *frame, const struct ow_target *target)
 {
-    const struct ow_surface_kind *kind =
-        frame->look->order == OW_FRONT_TO_BACK ? &ow_surface_dynamic : &ow_surface_painter;
+    const struct ow_surface_kind *kind = frame->look->coverage ? &ow_surface_coverage
+                                         : frame->look->order == OW_FRONT_TO_BACK
+                                             ? &ow_surface_dynamic
+                                             : &ow_surface_painter;
     ow_frame_aim(frame, kind, target);
     kind->begin(&frame->surface, frame->background);
     ow_frame_walk(frame);

@@ -53,29 +53,49 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
     return count < 3 ? 0 : count;
 }
 
+static inline uint32_t read_corner(const uint8_t *corners, uint32_t i, bool wide)
+{
+    return wide ? ow_read_u32(corners, 4 * i) : ow_read_u16(corners, 2 * i);
+}
+
+/* An entry that is right: where not all were projected at once, the tag tells. */
+static inline struct ow_outline_point look_up(const struct ow_frame *frame, uint32_t vertex)
+{
+    struct ow_workspace *workspace = frame->workspace;
+    struct ow_cached_vertex *cached = &workspace->cache[vertex & workspace->cache_mask];
+    if (cached->tag != (frame->tag | vertex)) {
+        project_vertex(frame, vertex, cached);
+    }
+    return cached->point;
+}
+
 /* Looks up all corners, last first if reverse. False if one must be clipped first. */
 static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *corner_bytes,
                                    uint32_t corners, bool wide, bool reverse)
 {
-    struct ow_cached_vertex *cache = frame->workspace->cache;
-    const uint32_t mask = frame->workspace->cache_mask;
-    const uint32_t tag = frame->tag;
+    const struct ow_cached_vertex *cache = frame->workspace->cache;
+    const bool all = frame->workspace->cache_mask == OW_CACHE_ALL;
     const int32_t step = reverse ? -1 : 1;
     struct ow_outline_point *out = frame->workspace->outline + (reverse ? corners - 1 : 0);
     for (uint32_t i = 0; i < corners; i++, out += step) {
-        uint32_t vertex =
-            wide ? ow_read_u32(corner_bytes, 4 * i) : ow_read_u16(corner_bytes, 2 * i);
-        struct ow_cached_vertex *cached = &cache[vertex & mask];
-        if (cached->tag != (tag | vertex)) {
-            project_vertex(frame, vertex, cached);
-        }
-        struct ow_outline_point point = cached->point;
-        if (point.x == OW_CLIP_FIRST) {
+        uint32_t vertex = read_corner(corner_bytes, i, wide);
+        *out = all ? cache[vertex].point : look_up(frame, vertex);
+        if (out->x == OW_CLIP_FIRST) {
             return false;
         }
-        *out = point;
     }
     return true;
+}
+
+/* The commonest outline: a triangle's front with all vertices projected. */
+static inline bool look_up_triangle(const struct ow_frame *frame, const uint8_t *corner_bytes)
+{
+    const struct ow_cached_vertex *cache = frame->workspace->cache;
+    struct ow_outline_point *out = frame->workspace->outline;
+    out[0] = cache[read_corner(corner_bytes, 0, false)].point;
+    out[1] = cache[read_corner(corner_bytes, 1, false)].point;
+    out[2] = cache[read_corner(corner_bytes, 2, false)].point;
+    return out[0].x != OW_CLIP_FIRST && out[1].x != OW_CLIP_FIRST && out[2].x != OW_CLIP_FIRST;
 }
 
 /* The face's outline in workspace->outline. Returns its count of points, 0 for none. */
@@ -84,9 +104,13 @@ static uint32_t project_outline(struct ow_frame *frame, const struct ow_face *fa
     const struct ow_tree *tree = frame->tree;
     const uint8_t *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
     uint32_t corners = ow_read_u8(tree->bytes, face->at);
-    bool ready = (tree->flags & OW_TREE_INDEX32)
-                     ? look_up_corners(frame, corner_bytes, corners, true, face->reverse)
-                     : look_up_corners(frame, corner_bytes, corners, false, face->reverse);
+    bool wide = (tree->flags & OW_TREE_INDEX32) != 0;
+    bool ready;
+    if (corners == 3 && !wide && !face->reverse && frame->workspace->cache_mask == OW_CACHE_ALL) {
+        ready = look_up_triangle(frame, corner_bytes);
+    } else {
+        ready = look_up_corners(frame, corner_bytes, corners, wide, face->reverse);
+    }
     return ready ? corners : clip_outline(frame, face, corners);
 }
 
@@ -105,12 +129,17 @@ static void begin_gradient(struct ow_frame *frame)
                       frame->shader.parts);
 }
 
-bool ow_face_project(struct ow_frame *frame)
+static inline bool project_face(struct ow_frame *frame)
 {
     frame->clipped = false;
     frame->shaded = false;
     frame->points = project_outline(frame, &frame->face);
     return frame->points > 0;
+}
+
+bool ow_face_project(struct ow_frame *frame)
+{
+    return project_face(frame);
 }
 
 bool ow_face_outline(struct ow_frame *frame, struct ow_box *box)
@@ -152,7 +181,8 @@ bool ow_draw_face(struct ow_frame *frame)
         frame->draw_face(frame);
         return surface->spans_written != before;
     }
-    if (!ow_face_outline(frame, &box) ||
+    if (!project_face(frame) ||
+        !ow_outline_box(workspace->outline, frame->points, &frame->window, &box) ||
         (frame->kind->hides != NULL && frame->kind->hides(surface, &box))) {
         return false;
     }

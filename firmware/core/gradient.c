@@ -123,11 +123,10 @@ static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_su
     return c;
 }
 
-/* The ramp through the leftmost and the rightmost crossing of the line. */
-static void span_line(struct ow_gradient *g, ow_sub8 y)
+/* The leftmost and the rightmost crossing of a line. False if the outline does not cross it. */
+static bool find_ends(const struct ow_gradient *g, ow_sub8 y, struct crossing *left,
+                      struct crossing *right)
 {
-    struct crossing left = { 0, { 0, 0, 0, 0 } };
-    struct crossing right = left;
     bool any = false;
     for (uint32_t i = 0; i < g->count; i++) {
         uint32_t next = i + 1 == g->count ? 0 : i + 1;
@@ -135,9 +134,35 @@ static void span_line(struct ow_gradient *g, ow_sub8 y)
             continue;
         }
         struct crossing c = cross_edge(g, i, y);
-        left = !any || c.x < left.x ? c : left;
-        right = !any || c.x > right.x ? c : right;
+        *left = !any || c.x < left->x ? c : *left;
+        *right = !any || c.x > right->x ? c : *right;
         any = true;
+    }
+    return any;
+}
+
+/* The nearest y that the outline, which is not flat, crosses. */
+static ow_sub8 nearest_crossed(const struct ow_gradient *g, ow_sub8 y)
+{
+    ow_sub8 top = g->points[0].y;
+    ow_sub8 bottom = top;
+    for (uint32_t i = 1; i < g->count; i++) {
+        top = g->points[i].y < top ? g->points[i].y : top;
+        bottom = g->points[i].y > bottom ? g->points[i].y : bottom;
+    }
+    return y < top ? top : bottom - 1;
+}
+
+/*
+ * The ramp through the outermost two crossings of the line. Coverage asks for
+ * lines whose centre the outline may just miss.
+ */
+static void span_line(struct ow_gradient *g, ow_sub8 y)
+{
+    struct crossing left = { 0, { 0, 0, 0, 0 } };
+    struct crossing right = left;
+    if (!find_ends(g, y, &left, &right)) {
+        (void)find_ends(g, nearest_crossed(g, y), &left, &right);
     }
     int32_t across = right.x - left.x;
     for (uint32_t k = 0; k < g->parts; k++) {

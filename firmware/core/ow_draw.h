@@ -68,7 +68,7 @@ struct ow_look {
     uint32_t foreground; /* OW_SHADE_LINES: 0x00RRGGBB */
     /*
      * 16 samples a pixel, nearest first, flat or smooth: needs a workspace with
-     * coverage. Not OW_SHADE_ID, not OW_SHADE_LINES, not with OW_BACK_TO_FRONT.
+     * coverage and OW_FRONT_TO_BACK. Not OW_SHADE_ID, not OW_SHADE_LINES.
      */
     bool coverage;
 };
@@ -108,6 +108,8 @@ struct ow_workspace_config {
     bool coverage;   /* 8 bytes a pixel of a band and 4 spans a line, for the look's coverage */
 };
 
+#define OW_CACHE_ALL 0xFFFFFFFFu /* as cache_mask: an entry for every vertex */
+
 /* Private to the core, here so that the caller can place it. */
 struct ow_workspace {
     struct ow_frame *frame;
@@ -128,7 +130,7 @@ struct ow_workspace {
     uint32_t *line_heads;
     uint32_t listed_capacity;
     uint32_t listed_height;
-    uint32_t cache_mask; /* entries - 1, or all ones */
+    uint32_t cache_mask; /* entries - 1, or OW_CACHE_ALL */
     uint32_t cache_entries;
     uint32_t capacity; /* points of an outline after clipping */
     uint32_t width;

@@ -107,4 +107,8 @@ static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
     return (struct ow_outline_point){ OW_SUB / 2 * view->width + x, OW_SUB / 2 * view->height - y };
 }
 
+/* Projects every vertex of the tree into cache[0 .. vertex_count-1]; the tags are left alone. */
+void ow_project_all(const struct ow_tree *tree, const struct ow_view *view,
+                    struct ow_cached_vertex *cache);
+
 #endif

@@ -37,6 +37,8 @@ struct ow_surface {
     uint32_t pixels_background;
     /* Front to back: a bit for each pixel that nothing has been written to. */
     uint32_t *unlit;
+    struct ow_samples *samples; /* coverage: of each pixel */
+    uint32_t *sampled;          /* coverage: a bit for each pixel that has a sample */
     uint32_t words_in_line;
     uint32_t lines_open;   /* lines with unlit pixels; 0: nothing more can be seen */
     uint16_t *open_pixels; /* unlit pixels of each line */

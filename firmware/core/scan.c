@@ -9,7 +9,15 @@
 
 #include <stdbool.h>
 
-enum { SUB = OW_SUB, HALF = OW_SUB / 2 }; /* a pixel's centre lies at its half */
+/* scan_4x4.c compiles this file a second time, for pixels a quarter as large. */
+#ifndef OW_SCAN_SUB_BITS
+#define OW_SCAN_SUB_BITS OW_SUB_BITS
+#endif
+enum {
+    SUB_BITS = OW_SCAN_SUB_BITS,
+    SUB = 1 << SUB_BITS,
+    HALF = SUB / 2 /* a pixel's centre */
+};
 
 /* The largest height and width of an edge: coordinates stay within OW_GUARD of the middle. */
 #define EDGE_MAX (2LL * OW_GUARD)
@@ -18,7 +26,7 @@ _Static_assert(EDGE_MAX *(3 * SUB) < INT32_MAX, "what begin_edge divides fits 32
 /* The first line or pixel whose centre is at or beyond this coordinate. */
 static inline int32_t first_centre(ow_sub8 coordinate)
 {
-    return (coordinate - HALF + SUB - 1) >> OW_SUB_BITS;
+    return (coordinate - HALF + SUB - 1) >> SUB_BITS;
 }
 
 static inline ow_sub8 least(ow_sub8 a, ow_sub8 b)
@@ -90,7 +98,7 @@ static inline bool begin_edge(struct ow_scan_edge *edge, struct ow_outline_point
     edge->whole = height * SUB;
     /* Pixels right of x's own, rounded up: three terms below SUB * EDGE_MAX. */
     int32_t beyond = (x & (SUB - 1)) * (int32_t)height + down * across + (int32_t)edge->whole - 1;
-    edge->x = (x >> OW_SUB_BITS) + divide(beyond, edge->whole, &edge->rest);
+    edge->x = (x >> SUB_BITS) + divide(beyond, edge->whole, &edge->rest);
     if (edge->end - first > 1) {
         edge->step = divide(across, height, &edge->part);
         edge->part *= SUB;
@@ -384,7 +392,7 @@ static void scan_low_triangle(struct ow_outline_point a, struct ow_outline_point
                               struct ow_outline_point c, bool b_is_right, const struct ow_box *box,
                               struct ow_span_sink *sink)
 {
-    int32_t origin_pixel = least(a.x, least(b.x, c.x)) >> OW_SUB_BITS;
+    int32_t origin_pixel = least(a.x, least(b.x, c.x)) >> SUB_BITS;
     ow_sub8 origin = origin_pixel * SUB;
     int32_t line = box->line;
     int32_t bend = least(first_centre(b.y), box->end_line);

@@ -6,33 +6,9 @@
  * time. A count for each line makes a full line cost one test, and a count of
  * open lines ends the walk when the band is full.
  */
+#include "ow_bits.h"
 #include "ow_memory.h"
 #include "ow_surface.h"
-
-static uint32_t trailing_zeros(uint32_t word)
-{
-#if defined(__GNUC__)
-    return (uint32_t)__builtin_ctz(word);
-#else
-    uint32_t n = 0;
-    while (!(word >> n & 1)) {
-        n++;
-    }
-    return n;
-#endif
-}
-
-/* Bits first .. 31. */
-static uint32_t bits_from(uint32_t first)
-{
-    return 0xFFFFFFFFu << first;
-}
-
-/* Bits 0 .. last. */
-static uint32_t bits_to(uint32_t last)
-{
-    return 0xFFFFFFFFu >> (31 - last);
-}
 
 static void begin(struct ow_surface *surface, uint32_t background)
 {
@@ -42,39 +18,11 @@ static void begin(struct ow_surface *surface, uint32_t background)
     memset(surface->unlit, 0xFF, (size_t)lines * words * sizeof *surface->unlit);
     for (uint32_t i = 0; i < lines; i++) {
         surface->open_pixels[i] = (uint16_t)surface->width;
-        surface->unlit[(i + 1) * words - 1] = bits_to((surface->width - 1) & 31);
+        surface->unlit[(i + 1) * words - 1] = ow_bits_to((surface->width - 1) & 31);
     }
     surface->lines_open = lines;
     memset(surface->open_tiles, 0xFF,
            (size_t)ow_tile_words(surface->width) * ow_tiles(lines) * sizeof *surface->open_tiles);
-}
-
-/* The first pixel in from .. end-1 whose bit is not that of skip (0 or all ones); else end. */
-static uint32_t next_bit(const uint32_t *words, uint32_t from, uint32_t end, uint32_t skip)
-{
-    uint32_t w = from / 32;
-    uint32_t found = (words[w] ^ skip) & bits_from(from & 31);
-    while (found == 0) {
-        w++;
-        if (w * 32 >= end) {
-            return end;
-        }
-        found = words[w] ^ skip;
-    }
-    uint32_t x = w * 32 + trailing_zeros(found);
-    return x < end ? x : end;
-}
-
-static void clear_bits(uint32_t *words, uint32_t first, uint32_t end)
-{
-    uint32_t w = first / 32;
-    uint32_t last = (end - 1) / 32;
-    uint32_t mask = bits_from(first & 31);
-    for (; w < last; w++) {
-        words[w] &= ~mask;
-        mask = 0xFFFFFFFFu;
-    }
-    words[last] &= ~(mask & bits_to((end - 1) & 31));
 }
 
 /* True if none of a column of words has any of the mask's bits. */
@@ -117,7 +65,7 @@ static bool hides(const struct ow_surface *surface, const struct ow_box *box)
     uint32_t last_column = ((uint32_t)box->right - 1) / OW_TILE;
     if (column == last_column && end_row - row <= OW_TILE) { /* small: exactly */
         uint32_t mask =
-            bits_from((uint32_t)box->left & 31) & bits_to(((uint32_t)box->right - 1) & 31);
+            ow_bits_from((uint32_t)box->left & 31) & ow_bits_to(((uint32_t)box->right - 1) & 31);
         return column_is_lit(surface, column, row, end_row, mask);
     }
     uint32_t last_tile_row = (end_row - 1) >> OW_TILE_BITS;
@@ -135,16 +83,16 @@ static bool hides(const struct ow_surface *surface, const struct ow_box *box)
 static void write_unlit(struct ow_surface *surface, uint32_t line, uint32_t *words, uint32_t first,
                         uint32_t end)
 {
-    uint32_t x = next_bit(words, first, end, 0);
+    uint32_t x = ow_next_bit(words, first, end, 0);
     if (x == end) {
         return;
     }
     while (x < end) {
-        uint32_t stop = next_bit(words, x, end, 0xFFFFFFFFu);
+        uint32_t stop = ow_next_bit(words, x, end, 0xFFFFFFFFu);
         ow_write_run(surface, line, x, stop);
-        x = stop < end ? next_bit(words, stop, end, 0) : end;
+        x = stop < end ? ow_next_bit(words, stop, end, 0) : end;
     }
-    clear_bits(words, first, end);
+    ow_clear_bits(words, first, end);
 }
 
 static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)

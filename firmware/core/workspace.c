@@ -72,7 +72,7 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     workspace->listed_capacity = config->listed_faces;
     workspace->listed_height = config->height;
     workspace->cache_entries = entries;
-    workspace->cache_mask = entries < tree->vertex_count ? entries - 1 : 0xFFFFFFFFu;
+    workspace->cache_mask = entries < tree->vertex_count ? entries - 1 : OW_CACHE_ALL;
     workspace->capacity = capacity;
     workspace->width = config->width;
     workspace->lines = config->lines;

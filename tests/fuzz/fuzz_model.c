@@ -55,7 +55,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             .select = BSP_KEDEM,
             .candidates = 3,
             .sides = SIDES_AUTO,
-            .tolerance_q8 = size % 3 == 0 ? 0 : size % 3 == 1 ? 256 : 33 * 256,
+            .tolerance_q8 = size % 3 == 0   ? 0
+                            : size % 3 == 1 ? 256
+                                            : 33 * 256,
             .keep_ids = size % 2 == 0,
             .keep_normals = size % 5 == 0,
         };

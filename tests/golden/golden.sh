@@ -86,7 +86,8 @@ scene() {
         fails "$name" "it cannot be drawn"
         return
     fi
-    for other in "--order back-to-front" "--panel write --band 1" "--panel write --band 50"; do
+    for other in "--order back-to-front" "--order scanline" "--threads 3" "--panel write --band 1" \
+        "--panel write --band 50" "--order scanline --panel write --band 7"; do
         # shellcheck disable=SC2086 # an option and its value
         if [ "$(crc "$owt" "${view[@]}" $other)" != "$got" ]; then
             mkdir -p "$dir/other"

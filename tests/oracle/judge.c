@@ -59,7 +59,7 @@ static void try_point(struct search *search, const struct shape *s, double x, do
     double distance = hypot(x - search->x, y - search->y);
     double step = scene_step(search->scene->camera, z);
     /* A back shows by rounding alone: that and a lattice step are all it may be off. */
-    if (distance > (s->facing ? fmax(1, step) : 1.0 / 8 + step)) {
+    if (distance > (s->facing ? fmax(1, step) : ROUNDING + step)) {
         return;
     }
     enum outcome outcome = compare(search, s, x, y, z);
@@ -159,10 +159,10 @@ static struct vec point_at(const struct camera *c, double x, double y, double z)
     return c->parallel ? (struct vec){ r.x, r.y, z } : (struct vec){ r.x * z, r.y * z, z };
 }
 
-/* The tolerance, or 1/8 pixel at this depth. */
+/* The tolerance, or the rounding of outlines at this depth. */
 static double plane_bound(const struct search *search, double z)
 {
-    return fmax(search->tie / 2, 1 / (8 * scene_step(search->scene->camera, z)));
+    return fmax(search->tie / 2, ROUNDING / scene_step(search->scene->camera, z));
 }
 
 /* A shape's plane holds both points within the bound. */
@@ -249,7 +249,7 @@ static void try_cuts(struct search *search, uint32_t id)
 static bool strip_along(const struct search *search, const struct shape *s)
 {
     const struct spot *p = search->scene->spots + s->first;
-    double reach = s->facing ? 1 : 1.0 / 8;
+    double reach = s->facing ? 1 : ROUNDING;
     const double low[2] = { search->x - reach, search->y - reach };
     const double high[2] = { search->x + reach, search->y + reach };
     for (uint32_t i = 0, j = s->count - 1; i < s->count; j = i++) {

@@ -10,6 +10,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/*
+ * Pixels by which rounding may move two outlines against each other: corners go
+ * to the nearest 1/256 pixel, and arithmetic before that adds about as much.
+ */
+#define ROUNDING (1.0 / 64)
+
 struct vec {
     double x, y, z;
 };
@@ -149,7 +155,7 @@ void scene_make(struct scene *scene, const struct model *model, const struct cam
 void scene_free(struct scene *scene);
 int shape_winding(const struct scene *scene, const struct shape *shape, double x, double y);
 bool shape_covers(const struct scene *scene, const struct shape *shape, double x, double y);
-/* The same, and no rim is within 1/8 pixel or, if that is more than a pixel, a lattice step. */
+/* The same, and no rim is within ROUNDING and a projected lattice step. */
 bool shape_covers_surely(const struct scene *scene, const struct shape *shape, double x, double y);
 /* The ray through a screen point: o + t * (0, 0, 1) in parallel projection, else t * (x, y, 1). */
 struct vec scene_ray(const struct camera *camera, double x, double y);

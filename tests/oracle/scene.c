@@ -87,8 +87,8 @@ static void set_bounds(struct shape *s, const struct spot *spots, bool two_sided
         area += (a.x - spots[0].x) * (b.y - spots[0].y) - (b.x - spots[0].x) * (a.y - spots[0].y);
         perimeter += hypot(b.x - a.x, b.y - a.y);
     }
-    /* Each corner moves by up to 1/32 pixel across and down: width by less than 1/8. */
-    s->thin = fabs(area) / 2 <= perimeter / 2 / 8;
+    /* Mean width: the area is at most half the perimeter times that. */
+    s->thin = fabs(area) / 2 <= perimeter / 2 * ROUNDING;
     s->facing = two_sided || s->thin || area < 0; /* y runs down: counter-clockwise is negative */
 }
 
@@ -191,8 +191,7 @@ bool shape_covers_surely(const struct scene *scene, const struct shape *s, doubl
         return false;
     }
     const struct spot *p = scene->spots + s->first;
-    double step = scene_step(scene->camera, shape_depth(scene, s, x, y));
-    double bound = step > 1 ? step : 1.0 / 8;
+    double bound = ROUNDING + scene_step(scene->camera, shape_depth(scene, s, x, y));
     for (uint32_t i = 0; i < s->count; i++) {
         if (p[i].rim && distance_to(p[i], p[(i + 1) % s->count], x, y) <= bound) {
             return false;

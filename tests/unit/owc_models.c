@@ -18,10 +18,9 @@
 uint32_t models_vertex(struct model *model, double x, double y, double z)
 {
     size_t i = model->vertex_count++;
-    model->vertices = xgrow(model->vertices, &model->vertex_capacity, i + 1,
-                            sizeof *model->vertices);
-    model->normals = xgrow(model->normals, &model->normal_capacity, i + 1,
-                           sizeof *model->normals);
+    model->vertices =
+        xgrow(model->vertices, &model->vertex_capacity, i + 1, sizeof *model->vertices);
+    model->normals = xgrow(model->normals, &model->normal_capacity, i + 1, sizeof *model->normals);
     memcpy(model->vertices[i], (double[]){ x, y, z }, sizeof model->vertices[i]);
     memset(model->normals[i], 0, sizeof model->normals[i]);
     return (uint32_t)i;
@@ -34,8 +33,8 @@ void models_polygon(struct model *model, const uint32_t *corners, uint32_t count
         model->colours[model->colour_count++] = MODEL_DEFAULT_COLOUR;
     }
     size_t first = model->corner_count;
-    model->corners = xgrow(model->corners, &model->corner_capacity, first + count,
-                           sizeof *model->corners);
+    model->corners =
+        xgrow(model->corners, &model->corner_capacity, first + count, sizeof *model->corners);
     memcpy(model->corners + first, corners, count * sizeof *corners);
     model->corner_count += count;
     model->polygons = xgrow(model->polygons, &model->polygon_capacity, model->polygon_count + 1,
@@ -43,8 +42,7 @@ void models_polygon(struct model *model, const uint32_t *corners, uint32_t count
     model->polygons[model->polygon_count++] = (struct model_polygon){ first, count, 0 };
 }
 
-static uint32_t posed_vertex(struct model *model, const double p[3],
-                             const struct models_pose *pose)
+static uint32_t posed_vertex(struct model *model, const double p[3], const struct models_pose *pose)
 {
     double x = cos(pose->about_z) * p[0] - sin(pose->about_z) * p[1];
     double y = sin(pose->about_z) * p[0] + cos(pose->about_z) * p[1];
@@ -81,8 +79,8 @@ void models_tetrahedron(struct model *model, double size, const struct models_po
     static const uint32_t faces[4][3] = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
     uint32_t v[4];
     for (int i = 0; i < 4; i++) {
-        v[i] = posed_vertex(model,
-                            (double[]){ at[i][0] * size, at[i][1] * size, at[i][2] * size }, pose);
+        v[i] = posed_vertex(model, (double[]){ at[i][0] * size, at[i][1] * size, at[i][2] * size },
+                            pose);
     }
     for (int i = 0; i < 4; i++) {
         models_polygon(model, (uint32_t[]){ v[faces[i][0]], v[faces[i][1]], v[faces[i][2]] }, 3);
@@ -102,8 +100,7 @@ void models_prism(struct model *model, const double (*outline)[2], uint32_t coun
     for (uint32_t i = 0; i < count; i++) {
         uint32_t j = (i + 1) % count;
         models_polygon(model,
-                       (uint32_t[]){ low[count - 1 - i], low[count - 1 - j], high[j], high[i] },
-                       4);
+                       (uint32_t[]){ low[count - 1 - i], low[count - 1 - j], high[j], high[i] }, 4);
     }
     free(low);
     free(high);
@@ -144,8 +141,8 @@ uint32_t models_read_record(const struct ow_tree *tree, uint32_t at, struct mode
     uint32_t marks_at = at + tree->corners_in_record + record->count * step;
     for (uint32_t i = 0; i < record->count; i++) {
         uint32_t corner_at = at + tree->corners_in_record + i * step;
-        record->corners[i] = step == 4 ? ow_read_u32(tree->bytes, corner_at)
-                                       : ow_read_u16(tree->bytes, corner_at);
+        record->corners[i] =
+            step == 4 ? ow_read_u32(tree->bytes, corner_at) : ow_read_u16(tree->bytes, corner_at);
         if (record->look & OW_POLYGON_MARKED) {
             record->marks[i] = ow_read_u16(tree->bytes, marks_at + i / 16 * 2) >> i % 16 & 1;
         }

@@ -70,8 +70,8 @@ static void test_joined(void **state)
     uint32_t c = models_vertex(&model, 100, 0, 0);
     uint32_t d = models_vertex(&model, 0, 100, 0);
     models_polygon(&model, (uint32_t[]){ a, c, d }, 3);
-    models_polygon(&model, (uint32_t[]){ b, d, c }, 3); /* the other side: no repetition */
-    models_polygon(&model, (uint32_t[]){ a, b, c }, 3); /* two points */
+    models_polygon(&model, (uint32_t[]){ b, d, c }, 3);    /* the other side: no repetition */
+    models_polygon(&model, (uint32_t[]){ a, b, c }, 3);    /* two points */
     models_polygon(&model, (uint32_t[]){ a, b, c, d }, 4); /* the first again: that one goes */
     models_polygon(&model, (uint32_t[]){ a, a, a }, 3);
     clean(&mesh, &model);
@@ -97,10 +97,9 @@ static void test_repeated(void **state)
         v[i] = models_vertex(&model, i == 1 || i == 2, i >= 2, 0);
     }
     for (uint32_t turn = 0; turn < 4; turn++) {
-        models_polygon(&model,
-                       (uint32_t[]){ v[turn], v[(turn + 1) % 4], v[(turn + 2) % 4],
-                                     v[(turn + 3) % 4] },
-                       4);
+        models_polygon(
+            &model,
+            (uint32_t[]){ v[turn], v[(turn + 1) % 4], v[(turn + 2) % 4], v[(turn + 3) % 4] }, 4);
     }
     models_polygon(&model, (uint32_t[]){ v[3], v[2], v[1], v[0] }, 4);
     clean(&mesh, &model);
@@ -125,8 +124,7 @@ static void test_bridge(void **state)
         v[4 + i] = models_vertex(&model, 1 + 2 * x, 1 + 2 * y, 0);
     }
     models_polygon(&model,
-                   (uint32_t[]){ v[0], v[1], v[2], v[3], v[0], v[4], v[7], v[6], v[5], v[4] },
-                   10);
+                   (uint32_t[]){ v[0], v[1], v[2], v[3], v[0], v[4], v[7], v[6], v[5], v[4] }, 10);
     clean(&mesh, &model);
     assert_int_equal(mesh.polygon_count, 1);
     assert_int_equal(mesh.polygons[0].count, 10);
@@ -148,12 +146,11 @@ static void test_uneven(void **state)
         struct mesh mesh;
         make_unit_lattice(&model);
         double h = up ? 9 : 3; /* the best plane lies a quarter of it from each corner */
-        models_polygon(&model,
-                       (uint32_t[]){ models_vertex(&model, 0, 0, 0),
-                                     models_vertex(&model, 1000, 0, 0),
-                                     models_vertex(&model, 1000, 1000, h),
-                                     models_vertex(&model, 0, 1000, 0) },
-                       4);
+        models_polygon(
+            &model,
+            (uint32_t[]){ models_vertex(&model, 0, 0, 0), models_vertex(&model, 1000, 0, 0),
+                          models_vertex(&model, 1000, 1000, h), models_vertex(&model, 0, 1000, 0) },
+            4);
         clean(&mesh, &model);
         assert_int_equal(mesh.uneven_cut, up);
         assert_int_equal(mesh.polygon_count, up ? 3 : 2);
@@ -244,9 +241,9 @@ static void test_nothing_left(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lattice), cmocka_unit_test(test_joined),
-        cmocka_unit_test(test_repeated), cmocka_unit_test(test_bridge),
-        cmocka_unit_test(test_uneven),  cmocka_unit_test(test_ears),
+        cmocka_unit_test(test_lattice),      cmocka_unit_test(test_joined),
+        cmocka_unit_test(test_repeated),     cmocka_unit_test(test_bridge),
+        cmocka_unit_test(test_uneven),       cmocka_unit_test(test_ears),
         cmocka_unit_test(test_nothing_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -77,12 +77,13 @@ static void test_shared(void **state)
     (void)state;
     struct scene s;
     scene_begin(&s);
-    add_square(&s, 0, 0, 500.3, 100, 0, false);      /* 2 */
-    add_square(&s, 9000, 5000, 500.3, 50, 0, false); /* 3: far away */
-    add_square(&s, 200, 0, 501.2, 20, 0, true);      /* 4: within a step, from behind */
-    add_square(&s, 300, 0, 502, 20, 0, false);       /* 5: farther than a step */
-    add_square(&s, 0, 200, 500.3, 90, 0.5, false);   /* 6: steep */
-    add_square(&s, 100, 0, 500.3, 60, 0.01, false);  /* 7: hangs on 2, within a step */
+    add_square(&s, 0, 0, 500.3, 100, 0, false);       /* 2 */
+    add_square(&s, 9000, 5000, 500.3, 50, 0, false);  /* 3: far away */
+    add_square(&s, 200, 0, 501.2, 20, 0, true);       /* 4: within a step, from behind */
+    add_square(&s, 300, 0, 502, 20, 0, false);        /* 5: farther than a step */
+    add_square(&s, 0, 200, 500.3, 90, 0.5, false);    /* 6: steep */
+    add_square(&s, 100, 0, 500.3, 60, 0.01, false);   /* 7: hangs on 2, within a step */
+    add_square(&s, 100, 100, 500.3, 60, 0.03, false); /* 8: hangs on 2, 1.8 steps up */
     scene_group(&s, 256);
     uint32_t record = record_of(&s, 2);
     assert_int_equal(record_of(&s, 3), record);
@@ -90,6 +91,7 @@ static void test_shared(void **state)
     assert_int_not_equal(record_of(&s, 5), record);
     assert_int_not_equal(record_of(&s, 6), record);
     assert_int_equal(record_of(&s, 7), record);
+    assert_int_not_equal(record_of(&s, 8), record);
     assert_false(s.mesh.polygons[1].reversed);
     assert_true(s.mesh.polygons[3].reversed);
     scene_end(&s);
@@ -256,13 +258,38 @@ static void test_cut_chord(void **state)
     scene_end(&s);
 }
 
+/* Where three planes have no point in common the vertex is rounded, between the two corners. */
+static void test_cut_without_meeting(void **state)
+{
+    (void)state;
+    struct scene s;
+    scene_begin(&s);
+    add_square(&s, 0, 0, 0, 3000, 0, false);
+    scene_group(&s, 0);
+    struct arrangement *a = &s.arrangement;
+    const uint32_t *v = s.mesh.corners + s.mesh.polygons[1].first;
+    uint32_t cutter = plane_add(&s.planes, (int32_t[]){ 3, -1, 0 }, -3000, 0);
+    uint32_t ends[2] = { arrangement_cut(a, arrangement_segment(a, v[0], v[1]), cutter, v[0], v[1]),
+                         arrangement_cut(a, arrangement_segment(a, v[3], v[2]), cutter, v[3],
+                                         v[2]) };
+    uint32_t chord = arrangement_chord(a, s.mesh.polygons[1].record, cutter, ends, 2);
+    uint32_t along = plane_add(&s.planes, (int32_t[]){ 3, -1, 5 }, -2000, 0);
+    uint32_t p = arrangement_cut(a, chord, along, ends[0], ends[1]);
+    assert_int_equal(a->vertices[p].kind, VERTEX_ROUNDED);
+    assert_int_equal(a->rounded, 1);
+    assert_in_range(a->vertices[p].lattice[0], 1000, 2000);
+    assert_in_range(a->vertices[p].lattice[1], 0, 3000);
+    assert_int_equal(arrangement_side(a, along, p), 1); /* where it was put: 1000 above */
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shared),         cmocka_unit_test(test_turned_floor),
         cmocka_unit_test(test_exact_triangle), cmocka_unit_test(test_own_corners),
         cmocka_unit_test(test_tolerance_edge), cmocka_unit_test(test_cut_edge),
-        cmocka_unit_test(test_cut_chord),
+        cmocka_unit_test(test_cut_chord),      cmocka_unit_test(test_cut_without_meeting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,8 +60,7 @@ static void list_records(struct arrangement *a, const struct mesh *mesh)
     }
 }
 
-void arrangement_begin(struct arrangement *a, const struct mesh *mesh,
-                       const struct planes *planes)
+void arrangement_begin(struct arrangement *a, const struct mesh *mesh, const struct planes *planes)
 {
     *a = (struct arrangement){ .planes = planes, .point_count = mesh->point_count };
     for (uint32_t i = 0; i < mesh->point_count; i++) {
@@ -193,8 +192,8 @@ static bool place_on_segment(const struct arrangement *a, const struct line *lin
 
 /* False if the planes do not meet in a point, or not near the cut edge from u to v. */
 static bool place_on_chord(const struct arrangement *a, const struct line *line,
-                           const struct plane *plane, uint32_t u, uint32_t v,
-                           struct vertex *vertex, double at[3])
+                           const struct plane *plane, uint32_t u, uint32_t v, struct vertex *vertex,
+                           double at[3])
 {
     struct meeting meeting;
     const struct plane *planes = a->planes->all;
@@ -244,9 +243,8 @@ uint32_t arrangement_cut(struct arrangement *a, uint32_t line_number, uint32_t p
     const struct plane *plane = &a->planes->all[plane_number];
     struct vertex vertex = { .line = line_number, .plane = plane_number };
     double at[3];
-    bool placed = line->carrier == MESH_NONE
-                      ? place_on_segment(a, line, plane, &vertex, at)
-                      : place_on_chord(a, line, plane, u, v, &vertex, at);
+    bool placed = line->carrier == MESH_NONE ? place_on_segment(a, line, plane, &vertex, at)
+                                             : place_on_chord(a, line, plane, u, v, &vertex, at);
     if (!placed) {
         place_between(a, plane, u, v, &vertex, at);
         a->rounded++;
@@ -295,9 +293,8 @@ static int side_of_lattice_point(const struct arrangement *a, uint32_t plane_num
     const struct plane *plane = &a->planes->all[plane_number];
     int64_t height = exact_side(plane, a->vertices[number].lattice);
     int64_t size = llabs(height);
-    if (size <= plane->tolerance ||
-        (size <= plane->reach && number < a->point_count &&
-         is_own_corner(a, plane_number, number))) {
+    if (size <= plane->tolerance || (size <= plane->reach && number < a->point_count &&
+                                     is_own_corner(a, plane_number, number))) {
         return 0;
     }
     return height > 0 ? 1 : -1;

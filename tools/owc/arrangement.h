@@ -32,7 +32,7 @@ enum vertex_kind {
 };
 
 struct vertex {
-    uint32_t line;  /* made on this line, by this plane; VERTEX_POINT: LINE_NONE */
+    uint32_t line; /* made on this line, by this plane; VERTEX_POINT: LINE_NONE */
     uint32_t plane;
     int16_t lattice[3]; /* rounded */
     uint8_t kind;
@@ -63,12 +63,12 @@ struct arrangement {
     struct crossing *crossings;
     size_t crossing_count;
     size_t crossing_capacity;
-    struct map64 segments;   /* lines by their two points */
-    struct map64 cuts;       /* vertices by line and plane */
-    uint32_t *record_first;  /* planes of the polygons at each point of the mesh */
+    struct map64 segments;  /* lines by their two points */
+    struct map64 cuts;      /* vertices by line and plane */
+    uint32_t *record_first; /* planes of the polygons at each point of the mesh */
     uint32_t *records;
     uint32_t point_count;
-    uint32_t rounded;        /* vertices of that kind */
+    uint32_t rounded; /* vertices of that kind */
 };
 
 void arrangement_begin(struct arrangement *arrangement, const struct mesh *mesh,
@@ -86,8 +86,8 @@ uint32_t arrangement_chord(struct arrangement *arrangement, uint32_t carrier, ui
                            const uint32_t *vertices, uint32_t count);
 
 /* The vertex at which a plane cuts a line between vertices u and v, which it separates. */
-uint32_t arrangement_cut(struct arrangement *arrangement, uint32_t line, uint32_t plane,
-                         uint32_t u, uint32_t v);
+uint32_t arrangement_cut(struct arrangement *arrangement, uint32_t line, uint32_t plane, uint32_t u,
+                         uint32_t v);
 
 /*
  * How far a vertex made on this line lies from its first end to its second, as
@@ -112,8 +112,9 @@ int arrangement_side_exactly(const struct arrangement *arrangement, uint32_t pla
 
 /*
  * The side of a plane on which a vertex lies: 1, 0 on it, -1. Exact. On it
- * are: what is within the tolerance, the corners of the plane's own polygons,
- * and vertices that the plane made.
+ * are: what is within the tolerance, the corners of the plane's own polygons
+ * with all that lies between two of them, and what the plane itself cut
+ * (VERTEX_ROUNDED excepted: such a vertex is where it was put).
  */
 static inline int arrangement_side(const struct arrangement *arrangement, uint32_t plane,
                                    uint32_t vertex)

@@ -24,7 +24,7 @@ struct layout {
     uint32_t *nodes; /* tree nodes, level by level */
     uint32_t node_count;
     uint32_t *switches_above; /* for each of nodes: switches on the path, itself included */
-    uint32_t *outlines; /* in the order of their records */
+    uint32_t *outlines;       /* in the order of their records */
     uint32_t outline_count;
     uint32_t *record_at; /* of each outline: bytes from the first record, or UNPLACED */
     uint64_t node_bytes;
@@ -60,8 +60,7 @@ static uint32_t count_items(const struct layout *l, const struct tree_node *node
 
 static void meet_node(struct layout *l, uint32_t node, uint32_t above)
 {
-    l->switches_above[l->node_count] =
-        above + (l->parts->tree->nodes[node].plane != MESH_NONE);
+    l->switches_above[l->node_count] = above + (l->parts->tree->nodes[node].plane != MESH_NONE);
     l->nodes[l->node_count++] = node;
 }
 
@@ -160,8 +159,8 @@ static uint32_t number_vertex(struct layout *l, struct vertex_maps *maps, size_t
 {
     const struct repaired *repaired = l->parts->repaired;
     const int16_t *at = repaired->corners[corner];
-    uint64_t key = (uint64_t)(uint16_t)at[0] << 32 | (uint64_t)(uint16_t)at[1] << 16 |
-                   (uint16_t)at[2];
+    uint64_t key =
+        (uint64_t)(uint16_t)at[0] << 32 | (uint64_t)(uint16_t)at[1] << 16 | (uint16_t)at[2];
     if (repaired->normals == NULL) {
         uint32_t vertex = map64_put(&maps->points, key, l->vertex_count);
         if (vertex == l->vertex_count) {
@@ -172,8 +171,8 @@ static uint32_t number_vertex(struct layout *l, struct vertex_maps *maps, size_t
     int8_t normal[3];
     unit_bytes(repaired->normals[corner], flat, normal);
     uint32_t point = map64_put(&maps->points, key, (uint32_t)maps->points.count);
-    uint32_t packed = (uint32_t)(uint8_t)normal[0] << 16 | (uint32_t)(uint8_t)normal[1] << 8 |
-                      (uint8_t)normal[2];
+    uint32_t packed =
+        (uint32_t)(uint8_t)normal[0] << 16 | (uint32_t)(uint8_t)normal[1] << 8 | (uint8_t)normal[2];
     uint32_t vertex = map64_put(&maps->normals, map64_key(point, packed), l->vertex_count);
     if (vertex == l->vertex_count) {
         add_vertex(l, at, normal);
@@ -225,8 +224,8 @@ static void lay_out_records(struct layout *l)
     for (uint32_t i = 0; i < l->outline_count; i++) {
         const struct outline_final *outline = &l->parts->repaired->outlines[l->outlines[i]];
         l->record_at[l->outlines[i]] = (uint32_t)l->polygon_bytes;
-        l->polygon_bytes += fixed + outline->count * (wide_corners(l) ? 4u : 2u) +
-                            2u * mark_words(l, outline);
+        l->polygon_bytes +=
+            fixed + outline->count * (wide_corners(l) ? 4u : 2u) + 2u * mark_words(l, outline);
         if (l->polygon_bytes > OW_MAX_BLOB_BYTES) {
             return; /* refused later, with the other sections */
         }
@@ -307,8 +306,8 @@ static void put_nodes(struct layout *l)
     for (uint32_t i = 0; i < l->node_count; i++) {
         const struct tree_node *node = &tree->nodes[l->nodes[i]];
         bool is_switch = node->plane != MESH_NONE;
-        put32(l, (is_switch ? OW_NODE_SWITCH : OW_NODE_SEQUENCE) |
-                     count_items(l, node) << OW_NODE_COUNT_SHIFT);
+        put32(l, (is_switch ? OW_NODE_SWITCH : OW_NODE_SEQUENCE) | count_items(l, node)
+                                                                       << OW_NODE_COUNT_SHIFT);
         if (is_switch) {
             put_item(l, node->front, &next_child, &met);
             put_item(l, node->back, &next_child, &met);
@@ -428,8 +427,8 @@ static uint32_t flags_of(const struct layout *l)
     const struct blob_parts *parts = l->parts;
     return (parts->two_sided ? OW_TREE_TWO_SIDED : 0u) |
            (parts->switch_only ? OW_TREE_SWITCH_ONLY : 0u) |
-           (parts->mesh->closed ? OW_TREE_CLOSED : 0u) |
-           (wide_corners(l) ? OW_TREE_INDEX32 : 0u) | (parts->keep_ids ? OW_TREE_IDS : 0u) |
+           (parts->mesh->closed ? OW_TREE_CLOSED : 0u) | (wide_corners(l) ? OW_TREE_INDEX32 : 0u) |
+           (parts->keep_ids ? OW_TREE_IDS : 0u) |
            (parts->repaired->normals != NULL ? OW_TREE_NORMALS : 0u);
 }
 

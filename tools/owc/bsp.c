@@ -12,8 +12,10 @@
 
 #include <stdlib.h>
 
+#include "conflict.h"
+#include "dividing.h"
+#include "parts.h"
 #include "random.h"
-#include "split.h"
 #include "tools/common/xalloc.h"
 
 struct list {
@@ -26,6 +28,7 @@ struct task {
     struct list list;
     uint32_t parent; /* node, or MESH_NONE for the root */
     bool front;
+    uint32_t dividing; /* dividing planes that were tried above; MESH_NONE: no more will do */
 };
 
 struct builder {
@@ -36,6 +39,7 @@ struct builder {
     struct progress *progress;
     struct random random;
     struct splitter splitter;
+    struct conflict conflict;
     struct task *tasks;
     size_t task_count;
     size_t task_capacity;
@@ -80,6 +84,27 @@ static void try_candidate(struct builder *b, const struct list *list, uint32_t c
     }
 }
 
+/* Of a few at random, or of all if there are few, the one with the greatest score. */
+static uint32_t choose_by_conflicts(struct builder *b, const struct list *list)
+{
+    bool all = b->options->candidates >= list->count;
+    uint32_t count = all ? list->count : b->options->candidates;
+    uint32_t best = 0;
+    double best_score = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t candidate = all ? i : random_below(&b->random, list->count);
+        uint32_t plane = b->pieces->all[list->pieces[candidate]].record;
+        double score = conflict_score(&b->conflict, b->arrangement, b->pieces, list->pieces,
+                                      list->count, plane, b->options->conflict_weight,
+                                      &b->tree->relations);
+        if (i == 0 || score > best_score) {
+            best = candidate;
+            best_score = score;
+        }
+    }
+    return best;
+}
+
 static uint32_t choose(struct builder *b, const struct list *list)
 {
     struct score best = { MESH_NONE, MESH_NONE, MESH_NONE };
@@ -98,6 +123,8 @@ static uint32_t choose(struct builder *b, const struct list *list)
         break;
     case BSP_EXHAUSTIVE:
         break;
+    case BSP_CONFLICT:
+        return choose_by_conflicts(b, list);
     }
     for (uint32_t i = 0; i < list->count; i++) {
         try_candidate(b, list, i, &best);
@@ -125,7 +152,8 @@ static void set_child(struct builder *b, const struct task *task, tree_item item
     }
 }
 
-static void push(struct builder *b, struct list list, uint32_t parent, bool front)
+static void push(struct builder *b, struct list list, uint32_t parent, bool front,
+                 uint32_t dividing)
 {
     if (list.count == 0) {
         free(list.pieces);
@@ -133,25 +161,55 @@ static void push(struct builder *b, struct list list, uint32_t parent, bool fron
     }
     list.pieces = xresize(list.pieces, list.count, sizeof *list.pieces);
     b->tasks = xgrow(b->tasks, &b->task_capacity, b->task_count + 1, sizeof *b->tasks);
-    b->tasks[b->task_count++] = (struct task){ list, parent, front };
+    b->tasks[b->task_count++] = (struct task){ list, parent, front, dividing };
     b->waiting += list.count;
 }
 
-/* Adds a piece that cutting made, unless it only runs to and fro along one line. */
-static void keep(const struct pieces *pieces, struct list *list, uint32_t number)
+static void keep(struct list *list, uint32_t part)
 {
-    const struct piece *piece = &pieces->all[number];
-    const uint32_t *edges = pieces->edges + piece->first;
-    if (piece->count > 2 || (piece->count == 2 && edges[0] >> 1 != edges[1] >> 1)) {
-        list->pieces[list->count++] = number;
+    if (part != MESH_NONE) {
+        list->pieces[list->count++] = part;
     }
 }
 
-static void make_switch(struct builder *b, const struct task *task)
+/* Not all pieces are on one side of the plane. */
+static bool divides(struct builder *b, const struct list *list, uint32_t plane)
+{
+    enum split_side first = split_side_of(b->arrangement, b->pieces, list->pieces[0], plane);
+    uint32_t i = 1;
+    while (first != SPLIT_ACROSS && i < list->count &&
+           split_side_of(b->arrangement, b->pieces, list->pieces[i], plane) == first) {
+        i++;
+    }
+    b->tree->relations += i;
+    return first == SPLIT_ACROSS || i < list->count;
+}
+
+/* The next dividing plane that does divide the list, otherwise the chosen polygon's. */
+static uint32_t choose_plane(struct builder *b, struct task *task)
+{
+    const struct bsp_options *options = b->options;
+    while (task->dividing < options->dividing_count) {
+        uint32_t plane = options->dividing[task->dividing++];
+        if (divides(b, &task->list, plane)) {
+            return plane;
+        }
+    }
+    if (options->axis_planes != NULL && task->dividing != MESH_NONE) {
+        uint32_t plane = dividing_axis_plane(b->arrangement, b->pieces, task->list.pieces,
+                                             task->list.count, options->axis_planes);
+        if (plane != MESH_NONE) {
+            return plane;
+        }
+        task->dividing = MESH_NONE;
+    }
+    return b->pieces->all[task->list.pieces[choose(b, &task->list)]].record;
+}
+
+static void make_switch(struct builder *b, struct task *task)
 {
     const struct list *list = &task->list;
-    uint32_t root = list->pieces[choose(b, list)];
-    uint32_t plane = b->pieces->all[root].record;
+    uint32_t plane = choose_plane(b, task);
     uint32_t node = tree_add_node(b->tree, plane);
     struct list front = { xalloc(list->count, sizeof *front.pieces), 0 };
     struct list back = { xalloc(list->count, sizeof *back.pieces), 0 };
@@ -169,18 +227,17 @@ static void make_switch(struct builder *b, const struct task *task)
             break;
         case SPLIT_ACROSS: {
             uint32_t parts[2];
-            split_piece(&b->splitter, b->arrangement, b->pieces, piece, plane, &parts[0],
-                        &parts[1]);
-            keep(b->pieces, &front, parts[0]);
-            keep(b->pieces, &back, parts[1]);
+            split_into_parts(&b->splitter, b->arrangement, b->pieces, piece, plane, parts);
+            keep(&front, parts[0]);
+            keep(&back, parts[1]);
             break;
         }
         }
     }
     b->tree->relations += list->count;
     set_child(b, task, tree_item_of(OW_ITEM_NODE, node));
-    push(b, back, node, false);
-    push(b, front, node, true);
+    push(b, back, node, false, task->dividing);
+    push(b, front, node, true, task->dividing);
 }
 
 /* A single piece: a face, or the two sides of one. */
@@ -210,7 +267,7 @@ void bsp_build(struct tree *tree, struct arrangement *arrangement, struct pieces
     for (uint32_t i = 0; i < all.count; i++) {
         all.pieces[i] = i;
     }
-    push(&b, all, MESH_NONE, false);
+    push(&b, all, MESH_NONE, false, 0);
     while (b.task_count > 0) {
         struct task task = b.tasks[--b.task_count];
         b.waiting -= task.list.count;
@@ -226,4 +283,5 @@ void bsp_build(struct tree *tree, struct arrangement *arrangement, struct pieces
     }
     free(b.tasks);
     splitter_free(&b.splitter);
+    conflict_free(&b.conflict);
 }

@@ -305,10 +305,18 @@ static void read_polygons(struct cleaner *c)
 bool clean_model(struct mesh *mesh, const struct model *model, bool keep_normals,
                  struct problem *problem)
 {
+    struct lattice lattice;
     memset(mesh, 0, sizeof *mesh);
-    if (!lattice_of_model(&mesh->lattice, model)) {
+    if (!lattice_of_model(&lattice, model)) {
         return problem_set(problem, 0, "all corners lie in one point");
     }
+    return clean_model_on(mesh, model, &lattice, keep_normals, problem);
+}
+
+bool clean_model_on(struct mesh *mesh, const struct model *model, const struct lattice *lattice,
+                    bool keep_normals, struct problem *problem)
+{
+    *mesh = (struct mesh){ .lattice = *lattice };
     if (model->polygon_count >= MESH_NONE / 4) {
         return problem_set(problem, 0, "has %zu polygons, too many", model->polygon_count);
     }

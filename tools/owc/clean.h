@@ -14,4 +14,8 @@
 bool clean_model(struct mesh *mesh, const struct model *model, bool keep_normals,
                  struct problem *problem);
 
+/* The same on a lattice that is given; what lies outside its cube is moved onto its sides. */
+bool clean_model_on(struct mesh *mesh, const struct model *model, const struct lattice *lattice,
+                    bool keep_normals, struct problem *problem);
+
 #endif

@@ -7,7 +7,10 @@
 
 #include "arrangement.h"
 #include "clean.h"
+#include "explain.h"
+#include "insert_edges.h"
 #include "ow_tree.h"
+#include "normals.h"
 #include "pieces.h"
 #include "plane.h"
 #include "progress.h"
@@ -32,11 +35,23 @@ struct compiler {
 static void build_tree(struct compiler *c)
 {
     struct progress progress;
-    struct bsp_options bsp = { c->options->select, c->options->candidates, c->options->seed,
-                               c->two_sided };
-    progress_begin(&progress, c->options->progress);
-    bsp_build(&c->tree, &c->arrangement, &c->pieces, &bsp, &progress);
+    const struct compile_options *options = c->options;
+    struct strategy strategy = { .method = options->method,
+                                 .select = options->select,
+                                 .candidates = options->candidates,
+                                 .conflict_weight = options->conflict_weight,
+                                 .seed = options->seed,
+                                 .dividing = options->dividing,
+                                 .dividing_axis = options->dividing_axis,
+                                 .into = options->into,
+                                 .two_sided = c->two_sided };
+    progress_begin(&progress, options->progress);
+    strategy_build(&c->tree, &c->arrangement, &c->planes, &c->pieces, &c->mesh, &strategy,
+                   &progress);
     progress_end(&progress);
+    if (options->explain != NULL) {
+        explain_cuts(options->explain, &c->mesh, &c->pieces, c->pieces.splits, c->planes.count);
+    }
 }
 
 /* Which pieces are faces of the tree. */
@@ -91,7 +106,7 @@ static bool write_checked(struct compiler *c, struct blob *blob, const struct mo
                                 .colour_count = (uint32_t)model->colour_count,
                                 .tolerance_q8 = c->options->tolerance_q8,
                                 .two_sided = c->two_sided,
-                                .switch_only = true,
+                                .switch_only = tree_is_switch_only(&c->tree),
                                 .keep_ids = c->options->keep_ids };
     if (!blob_write(blob, &parts, problem)) {
         return false;
@@ -128,21 +143,47 @@ static void fill_stats(const struct compiler *c, const struct model *model,
     };
 }
 
+/* On the model's own lattice, or on that of the tree that it is added to. */
+static bool make_mesh(struct compiler *c, const struct model *model, struct problem *problem)
+{
+    bool normals = c->options->keep_normals;
+    const struct insertion *into = c->options->into;
+    if (into == NULL) {
+        return clean_model(&c->mesh, model, normals, problem);
+    }
+    if (!clean_model_on(&c->mesh, model, &into->file->lattice, normals, problem)) {
+        return false;
+    }
+    insert_edges(&c->mesh, &into->file->tree);
+    return true;
+}
+
 static bool run_stages(struct compiler *c, struct blob *blob, struct compile_stats *stats,
                        const struct model *model, struct problem *problem)
 {
-    if (!clean_model(&c->mesh, model, c->options->keep_normals, problem)) {
+    if (!make_mesh(c, model, problem)) {
         return false;
+    }
+    struct mesh_check check = { 0 };
+    if (c->options->check || c->options->repair) {
+        check_mesh(&check, &c->mesh, c->options->repair);
+    }
+    if (c->options->compute_normals) {
+        normals_compute(&c->mesh, c->options->crease);
     }
     c->two_sided = c->options->sides == SIDES_TWO ||
                    (c->options->sides == SIDES_AUTO && !c->mesh.closed);
     plane_group(&c->planes, &c->mesh, model, c->options->tolerance_q8);
+    if (c->options->into != NULL) {
+        insertion_join(c->options->into, &c->mesh, &c->planes);
+    }
     arrangement_begin(&c->arrangement, &c->mesh, &c->planes);
     pieces_begin(&c->pieces, &c->mesh, &c->arrangement);
     build_tree(c);
     repair_and_prune(c);
     bool fine = write_checked(c, blob, model, problem);
     fill_stats(c, model, stats);
+    stats->check = check;
     return fine;
 }
 

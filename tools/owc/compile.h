@@ -5,22 +5,35 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "blob_write.h"
 #include "bsp.h"
+#include "check.h"
 #include "model.h"
 #include "problem.h"
+#include "strategy.h"
 
 enum sides { SIDES_ONE, SIDES_TWO, SIDES_AUTO };
 
 struct compile_options {
+    enum method method;
     enum bsp_select select;
     uint32_t candidates;
+    double conflict_weight;
+    const struct user_planes *dividing; /* NULL: none are given */
+    bool dividing_axis;
+    struct insertion *into; /* a tree to add to, NULL: none */
+    bool check;             /* fill compile_stats.check */
+    bool repair;            /* turn over what looks inwards; implies check */
+    FILE *explain;          /* where to say what was split; NULL: nowhere */
     uint64_t seed;
     enum sides sides;
     uint32_t tolerance_q8; /* side tests: lattice steps with 8 fraction bits */
     bool keep_ids;
     bool keep_normals;
+    bool compute_normals; /* instead of the model's own */
+    double crease;        /* degrees; see normals_compute */
     bool progress;
 };
 
@@ -44,6 +57,7 @@ struct compile_stats {
     uint64_t relations;
     bool closed;
     bool two_sided;
+    struct mesh_check check;
 };
 
 /* Free the blob in either case. */

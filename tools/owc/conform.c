@@ -164,8 +164,7 @@ static void put_path(struct writer *w, const struct paths *paths, uint32_t from,
     }
 }
 
-static void write_polygon(struct writer *w, const struct paths *paths,
-                          struct mesh_polygon *polygon)
+static void write_polygon(struct writer *w, const struct paths *paths, struct mesh_polygon *polygon)
 {
     const struct mesh *mesh = w->mesh;
     size_t first = w->count;

@@ -2,7 +2,9 @@
 /* Dividing planes: read from a text, or found in gaps along the axes. */
 #include "dividing.h"
 
+#include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,6 +72,31 @@ bool user_planes_read(struct user_planes *planes, const char *text, struct probl
         text += *text == '\n';
     }
     return true;
+}
+
+bool user_planes_read_file(struct user_planes *planes, const char *path,
+                           struct problem *problem)
+{
+    char *text = NULL;
+    size_t capacity = 0;
+    size_t used = 0;
+    size_t got;
+    *planes = (struct user_planes){ 0 };
+    FILE *file = fopen(path, "r");
+    if (file == NULL) {
+        return problem_set(problem, 0, "cannot be read: %s", strerror(errno));
+    }
+    do {
+        text = xgrow(text, &capacity, used + 4096, 1);
+        got = fread(text + used, 1, capacity - used - 1, file);
+        used += got;
+    } while (got > 0);
+    text[used] = '\0';
+    bool fine = !ferror(file) || problem_set(problem, 0, "cannot be read: %s", strerror(errno));
+    fclose(file);
+    fine = fine && user_planes_read(planes, text, problem);
+    free(text);
+    return fine;
 }
 
 void user_planes_free(struct user_planes *planes)

@@ -72,6 +72,6 @@ int exact_sign(const struct plane *plane, wide value, wide weight)
 
 wide exact_side_meeting(const struct plane *plane, const struct meeting *meeting)
 {
-    return plane->n[0] * meeting->x[0] + plane->n[1] * meeting->x[1] +
-           plane->n[2] * meeting->x[2] + plane->d * meeting->w;
+    return plane->n[0] * meeting->x[0] + plane->n[1] * meeting->x[1] + plane->n[2] * meeting->x[2] +
+           plane->d * meeting->w;
 }

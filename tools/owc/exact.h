@@ -16,15 +16,15 @@ __extension__ typedef unsigned __int128 uwide;
 
 /* Magnitudes in bits: a value of B bits is less than 2^B. */
 enum {
-    POINT_BITS = 15,                                 /* a lattice coordinate */
-    NORMAL_BITS = OW_PLANE_NORMAL_BITS,              /* a component of a plane's normal */
-    OFFSET_BITS = 41,                                /* a plane's d */
-    SIDE_BITS = OFFSET_BITS + 1,                     /* n.v + d at a lattice point */
-    EDGE_BITS = 2 * SIDE_BITS + 1,                   /* the same at a point of a lattice edge */
-    CROSS_BITS = 2 * NORMAL_BITS + 1,                /* a component of n1 x n2 */
-    MEET_W_BITS = NORMAL_BITS + CROSS_BITS + 2,      /* n1.(n2 x n3) */
-    MEET_BITS = OFFSET_BITS + CROSS_BITS + 2,        /* a numerator of the meeting point */
-    MEET_SIDE_BITS = NORMAL_BITS + MEET_BITS + 3     /* n.v + d at a meeting point, times w */
+    POINT_BITS = 15,                             /* a lattice coordinate */
+    NORMAL_BITS = OW_PLANE_NORMAL_BITS,          /* a component of a plane's normal */
+    OFFSET_BITS = 41,                            /* a plane's d */
+    SIDE_BITS = OFFSET_BITS + 1,                 /* n.v + d at a lattice point */
+    EDGE_BITS = 2 * SIDE_BITS + 1,               /* the same at a point of a lattice edge */
+    CROSS_BITS = 2 * NORMAL_BITS + 1,            /* a component of n1 x n2 */
+    MEET_W_BITS = NORMAL_BITS + CROSS_BITS + 2,  /* n1.(n2 x n3) */
+    MEET_BITS = OFFSET_BITS + CROSS_BITS + 2,    /* a numerator of the meeting point */
+    MEET_SIDE_BITS = NORMAL_BITS + MEET_BITS + 3 /* n.v + d at a meeting point, times w */
 };
 _Static_assert(OW_LATTICE_MAX < 1 << POINT_BITS, "lattice coordinates");
 _Static_assert(NORMAL_BITS + POINT_BITS + 2 < OFFSET_BITS, "n.v is less than d may be");
@@ -41,7 +41,7 @@ struct plane {
     int64_t reach;     /* largest |n.v + d| of the corners of its own faces, which are on it */
     double normal[3];  /* n, d as binary64: the same values */
     double offset;
-    double sure;       /* a rounded |n.v + d| above this decides the side */
+    double sure; /* a rounded |n.v + d| above this decides the side */
     int32_t n[3];
 };
 

@@ -337,8 +337,7 @@ static void divide(struct maker *m, struct group *g, uint32_t number)
             source->split(source->context, polygon, row->plane, parts);
             half_add(&front, parts[0], i, true);
             half_add(&back, parts[1], i, true);
-            m->waiting += (parts[0] != FEUDAL_NONE) + (parts[1] != FEUDAL_NONE);
-            m->waiting--;
+            m->waiting += parts[0] != FEUDAL_NONE && parts[1] != FEUDAL_NONE;
             break;
         }
     }

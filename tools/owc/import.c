@@ -128,7 +128,7 @@ static struct aiFile *file_open(struct aiFileIO *io, const char *name, const cha
         }
     }
     struct open_file *open = xalloc_zero(1, sizeof *open);
-    open->file = (struct aiFile){ file_read, file_write, file_tell, file_size,
+    open->file = (struct aiFile){ file_read, file_write, file_tell,   file_size,
                                   file_seek, file_flush, (char *)open };
     open->text = text;
     open->size = size;
@@ -185,9 +185,9 @@ static void transform_point(const struct transform *t, const struct aiVector3D *
 {
     double in[3] = { v->x, v->y, v->z };
     for (int i = 0; i < 3; i++) {
-        out[i] = t->identity ? in[i]
-                             : t->m[i][0] * in[0] + t->m[i][1] * in[1] + t->m[i][2] * in[2] +
-                                   t->m[i][3];
+        out[i] = t->identity
+                     ? in[i]
+                     : t->m[i][0] * in[0] + t->m[i][1] * in[1] + t->m[i][2] * in[2] + t->m[i][3];
     }
 }
 
@@ -272,8 +272,7 @@ static bool add_face(struct model *model, const struct aiFace *face, const struc
     for (uint32_t i = 0; i < face->mNumIndices; i++) {
         uint32_t index = face->mIndices[mirrors ? face->mNumIndices - 1 - i : i];
         if (index >= mesh->mNumVertices) {
-            return problem_set(problem, 0,
-                               "polygon %zu refers to vertex %u, but its mesh has %u",
+            return problem_set(problem, 0, "polygon %zu refers to vertex %u, but its mesh has %u",
                                model->polygon_count + 1, index, mesh->mNumVertices);
         }
         model->corners[model->corner_count + i] = (uint32_t)(base + index);
@@ -282,16 +281,15 @@ static bool add_face(struct model *model, const struct aiFace *face, const struc
     return true;
 }
 
-static bool add_vertices(struct model *model, const struct aiMesh *mesh,
-                         const struct transform *t, struct problem *problem)
+static bool add_vertices(struct model *model, const struct aiMesh *mesh, const struct transform *t,
+                         struct problem *problem)
 {
     size_t base = model->vertex_count;
     size_t all = base + mesh->mNumVertices;
     if (all >= UINT32_MAX) {
         return problem_set(problem, 0, "has more than %u vertices", UINT32_MAX - 1);
     }
-    model->vertices = xgrow(model->vertices, &model->vertex_capacity, all,
-                            sizeof *model->vertices);
+    model->vertices = xgrow(model->vertices, &model->vertex_capacity, all, sizeof *model->vertices);
     model->normals = xgrow(model->normals, &model->normal_capacity, all, sizeof *model->normals);
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
         transform_point(t, &mesh->mVertices[i], model->vertices[base + i]);
@@ -325,8 +323,8 @@ static bool add_mesh(struct model *model, const struct aiScene *scene, const str
         if (!add_face(model, face, mesh, base, t->mirrors, problem)) {
             return false;
         }
-        model->polygons = xgrow(model->polygons, &model->polygon_capacity,
-                                model->polygon_count + 1, sizeof *model->polygons);
+        model->polygons = xgrow(model->polygons, &model->polygon_capacity, model->polygon_count + 1,
+                                sizeof *model->polygons);
         model->polygons[model->polygon_count++] =
             (struct model_polygon){ first, face->mNumIndices, colour };
     }
@@ -383,12 +381,15 @@ static bool check_model(const struct model *model, struct problem *problem)
     return model->polygon_count > 0 || problem_set(problem, 0, "has no polygons");
 }
 
-/* assimp's own words on one line, without its prefix. */
+/* assimp's own words on one line. */
 static bool refused(struct problem *problem)
 {
     char text[256];
     snprintf(text, sizeof text, "%s", aiGetErrorString());
     text[strcspn(text, "\r\n")] = '\0';
+    if (strstr(text, "bad_alloc") != NULL) {
+        return problem_set(problem, 0, "is too large: out of memory");
+    }
     return problem_set(problem, 0, "cannot be read as a model: %s",
                        text[0] != '\0' ? text : "the format is not known");
 }
@@ -412,8 +413,8 @@ static bool is_obj(const char *name)
 }
 
 /* text ends with a zero byte. */
-static bool import_text(struct model *model, const char *name, char *text, size_t size,
-                        bool others, struct problem *problem)
+static bool import_text(struct model *model, const char *name, char *text, size_t size, bool others,
+                        struct problem *problem)
 {
     struct source source = { name, text, size, others };
     if (size == 0) {

@@ -149,15 +149,18 @@ static void print_header(FILE *out, const struct ow_tree *tree)
 
 static void print_tree(FILE *out, const struct ow_tree *tree, const struct census *census)
 {
-    fprintf(out, "nodes          %" PRIu32 ": %" PRIu32 " switches, %" PRIu32 " sequences, %" PRIu32
-                 " with bounds, %" PRIu32 " levels\n",
+    fprintf(out,
+            "nodes          %" PRIu32 ": %" PRIu32 " switches, %" PRIu32 " sequences, %" PRIu32
+            " with bounds, %" PRIu32 " levels\n",
             tree->node_count, tree->switch_count, tree->node_count - tree->switch_count,
             census->bounded, tree->depth);
-    fprintf(out, "items          %" PRIu32 " fronts, %" PRIu32 " backs, %" PRIu32
-                 " empty children, at most %" PRIu32 " in a node\n",
+    fprintf(out,
+            "items          %" PRIu32 " fronts, %" PRIu32 " backs, %" PRIu32
+            " empty children, at most %" PRIu32 " in a node\n",
             census->fronts, census->reverses, census->empty_children, census->most_items);
-    fprintf(out, "polygons       %" PRIu32 ": %.2f corners on average, at most %" PRIu32 ", %" PRIu32
-                 " with edges that were cut, %" PRIu32 " uneven\n",
+    fprintf(out,
+            "polygons       %" PRIu32 ": %.2f corners on average, at most %" PRIu32 ", %" PRIu32
+            " with edges that were cut, %" PRIu32 " uneven\n",
             tree->polygon_count, (double)census->corners / tree->polygon_count, tree->max_corners,
             census->marked, census->uneven);
     fprintf(out, "by corners    ");
@@ -173,9 +176,9 @@ static void print_tree(FILE *out, const struct ow_tree *tree, const struct censu
 static void print_bytes(FILE *out, const struct ow_tree *tree)
 {
     uint32_t instances_at = ow_read_u32(tree->bytes, AT(instances_at));
-    fprintf(out, "bytes          %" PRIu32 ": header %" PRIu32 ", nodes %" PRIu32
-                 ", polygons %" PRIu32 ", vertices %" PRIu32 ", normals %" PRIu32
-                 ", colours %" PRIu32 "\n",
+    fprintf(out,
+            "bytes          %" PRIu32 ": header %" PRIu32 ", nodes %" PRIu32 ", polygons %" PRIu32
+            ", vertices %" PRIu32 ", normals %" PRIu32 ", colours %" PRIu32 "\n",
             tree->blob_bytes, tree->nodes_at, tree->polygons_at - tree->nodes_at,
             tree->vertices_at - tree->polygons_at, tree->normals_at - tree->vertices_at,
             tree->colours_at - tree->normals_at, instances_at - tree->colours_at);

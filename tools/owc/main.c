@@ -5,37 +5,51 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "blob_file.h"
 #include "compile.h"
 #include "import.h"
 #include "info.h"
+#include "locate_print.h"
 #include "ow_blob.h"
+#include "plot.h"
 #include "progress.h"
 #include "stats.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 #include "tools/common/outfile.h"
 
-enum method { METHOD_BSP };
 static const char *const methods[] = { "bsp", "online", "feudal-static", "feudal-dynamic",
                                        "obstruction", NULL };
-/* The first ones in the order of enum bsp_select. */
+/* In the order of enum bsp_select. */
 static const char *const selects[] = { "first", "random", "kedem", "exhaustive", "conflict",
                                        NULL };
 static const char *const sides[] = { "one", "two", "auto", NULL };
-static const char *const normals[] = { "none", "keep", NULL };
+static const char *const normals[] = { "none", "keep", "compute", NULL };
+static const char *const dividings[] = { "none", "axis", NULL };
 
 struct command {
     const char *model;
     const char *output;
     const char *stats;
     const char *info;
+    const char *insert;
+    const char *planes_file;
+    const char *plot;
+    double locate[3];
+    double conflict_weight;
     int method;
     int select;
     int sides;
     int normals;
+    double crease;
     uint64_t candidates;
     uint64_t seed;
     double tolerance;
+    int dividing;
+    bool repair;
+    bool explain;
+    bool locate_given;
+    bool weight_given;
     bool strict;
     bool keep_ids;
     bool candidates_given;
@@ -46,8 +60,38 @@ static const char notes[] =
     "MODEL is any file that assimp reads. FILE '-' is standard output.\n"
     "--tolerance 0 is one lattice step, 1/65534 of the longest side, the finest distance there\n"
     "is; --strict counts only what is exactly on a plane.\n"
-    "The methods online, feudal-static, feudal-dynamic and obstruction and the selection\n"
-    "conflict are not there yet; until obstruction is, bsp is the default.\n";
+    "--planes-file has a line a,b,c,d for each plane ax + by + cz + d = 0, in model units; with\n"
+    "--dividing axis, planes along the axes are found at gaps. Both divide before polygons do.\n"
+    "--locate says in which convex region of a tree of switches a point lies.\n"
+    "The method obstruction is not there yet; until it is, bsp is the default.\n";
+
+/* Only one of the outputs can be standard output. */
+static void check_outputs(const struct option_table *table, const struct command *c)
+{
+    const char *outputs[] = { c->output, c->stats, c->plot, c->explain ? "-" : NULL };
+    int direct = 0;
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+        direct += outputs[i] != NULL && strcmp(outputs[i], "-") == 0;
+    }
+    if (direct > 1) {
+        options_wrong(table, "only one of the tree, the statistics, the picture and what "
+                             "--explain says can be standard output");
+    }
+}
+
+static void check_bsp_usage(const struct option_table *table, const struct command *c)
+{
+    bool bsp = c->method == METHOD_BSP && c->insert == NULL;
+    if (c->candidates_given && c->select != BSP_KEDEM && c->select != BSP_CONFLICT) {
+        options_wrong(table, "--candidates goes with --select kedem and conflict");
+    }
+    if (c->weight_given && c->select != BSP_CONFLICT) {
+        options_wrong(table, "--conflict-weight goes with --select conflict");
+    }
+    if (!bsp && (c->planes_file != NULL || c->dividing != 0)) {
+        options_wrong(table, "dividing planes go with --method bsp");
+    }
+}
 
 static void check_usage(const struct option_table *table, const struct command *c)
 {
@@ -58,26 +102,26 @@ static void check_usage(const struct option_table *table, const struct command *
         return;
     }
     if (c->model == NULL) {
-        options_wrong(table, "name a model");
+        options_wrong(table, c->locate_given || c->insert != NULL ? "name a tree"
+                                                                  : "name a model");
+    }
+    if (c->locate_given) {
+        if (c->output != NULL || c->insert != NULL) {
+            options_wrong(table, "--locate takes a tree and no output");
+        }
+        return;
     }
     if (c->output == NULL) {
         options_wrong(table, "name the output by -o FILE");
     }
-    if (c->method != METHOD_BSP) {
+    if (c->method == METHOD_OBSTRUCTION) {
         options_wrong(table, "--method %s is not there yet, use bsp", methods[c->method]);
     }
-    if (c->select > BSP_EXHAUSTIVE) {
-        options_wrong(table, "--select %s is not there yet, use kedem", selects[c->select]);
-    }
-    if (c->candidates_given && c->select != BSP_KEDEM) {
-        options_wrong(table, "--candidates goes with --select kedem");
-    }
+    check_bsp_usage(table, c);
     if (c->strict && c->tolerance_given) {
         options_wrong(table, "--strict and --tolerance exclude each other");
     }
-    if (c->stats != NULL && strcmp(c->stats, "-") == 0 && strcmp(c->output, "-") == 0) {
-        options_wrong(table, "only one of the tree and the statistics can be standard output");
-    }
+    check_outputs(table, c);
 }
 
 static void parse(struct command *c, int argc, char **argv)
@@ -88,8 +132,15 @@ static void parse(struct command *c, int argc, char **argv)
         { "method", 0, OPTION_CHOICE, &c->method, NULL, "strategy", .choices = methods },
         { "select", 0, OPTION_CHOICE, &c->select, NULL, "whose plane divides",
           .choices = selects },
-        { "candidates", 0, OPTION_UNSIGNED, &c->candidates, "K", "polygons that kedem tries",
+        { "candidates", 0, OPTION_UNSIGNED, &c->candidates, "K", "polygons that kedem and conflict try",
           .min = 1, .max = 1e9, .given = &c->candidates_given },
+        { "conflict-weight", 0, OPTION_DOUBLE, &c->conflict_weight, "W",
+          "of conflicts that stay, beside those that go", .max = 1e9,
+          .given = &c->weight_given },
+        { "planes-file", 0, OPTION_STRING, &c->planes_file, "FILE", "planes that divide first",
+          .choices = NULL },
+        { "dividing", 0, OPTION_CHOICE, &c->dividing, NULL, "planes to look for",
+          .choices = dividings },
         { "tolerance", 0, OPTION_DOUBLE, &c->tolerance, "T",
           "share of the longest side that counts as nothing", .max = 1,
           .given = &c->tolerance_given },
@@ -101,14 +152,27 @@ static void parse(struct command *c, int argc, char **argv)
           .choices = NULL },
         { "keep-ids", 0, OPTION_FLAG, &c->keep_ids, NULL, "keep the source polygons' numbers",
           .choices = NULL },
-        { "normals", 0, OPTION_CHOICE, &c->normals, NULL, "vertex normals", .choices = normals },
+        { "normals", 0, OPTION_CHOICE, &c->normals, NULL, "vertex normals, for smooth shading",
+          .choices = normals },
+        { "crease", 0, OPTION_DOUBLE, &c->crease, "DEG",
+          "--normals compute: edges that turn by more stay sharp", .min = 0, .max = 180 },
         { "stats", 0, OPTION_STRING, &c->stats, "FILE", "write statistics as JSON",
           .choices = NULL },
+        { "plot", 0, OPTION_STRING, &c->plot, "FILE.svg", "draw the tree", .choices = NULL },
+        { "explain", 0, OPTION_FLAG, &c->explain, NULL, "print what was split by what",
+          .choices = NULL },
+        { "repair", 0, OPTION_FLAG, &c->repair, NULL, "turn closed parts that look inwards",
+          .choices = NULL },
+        { "insert", 0, OPTION_STRING, &c->insert, "MORE", "a model to add to TREE.owt",
+          .choices = NULL },
+        { "locate", 0, OPTION_VECTOR, c->locate, "x,y,z", "find a point's region in TREE.owt",
+          .given = &c->locate_given, .no_default = true },
         { "info", 0, OPTION_STRING, &c->info, "TREE.owt", "check a tree and describe it",
           .choices = NULL },
     };
     const struct option_table table = {
-        .usage = "MODEL -o TREE.owt [options]\n--info TREE.owt",
+        .usage = "MODEL -o TREE.owt [options]\n--insert MORE TREE.owt -o NEW.owt\n"
+                 "--locate x,y,z TREE.owt\n--info TREE.owt",
         .about = "Compiles a model into a tree that the firmware draws.",
         .specs = specs,
         .count = sizeof specs / sizeof specs[0],
@@ -129,53 +193,125 @@ static uint32_t tolerance_q8(const struct command *c)
     return (uint32_t)floor(steps * 256 + 0.5);
 }
 
-static void warn_about(const struct command *c, const struct model *model)
+static void warn_about(const char *name, const struct model *model)
 {
     if (model->colours_changed > 0) {
-        warn_line(c->model, 0, "more than %d colours: %llu materials got the nearest one",
+        warn_line(name, 0, "more than %d colours: %llu materials got the nearest one",
                   OW_MAX_COLOURS, (unsigned long long)model->colours_changed);
+    }
+}
+
+static void draw_plot(struct outfile *out, const struct blob *blob)
+{
+    struct ow_tree tree;
+    if (ow_tree_open(&tree, blob->bytes, blob->size) == OW_OK) { /* compile_model saw to that */
+        plot_tree(outfile_stream(out), &tree);
     }
 }
 
 static void write_files(const struct command *c, const struct blob *blob,
                         const struct compile_stats *stats, double seconds)
 {
-    struct outfile *outs[2];
+    struct outfile *outs[3];
     size_t count = 0;
     outs[count++] = outfile_open(c->output);
     fwrite(blob->bytes, 1, blob->size, outfile_stream(outs[0]));
     if (c->stats != NULL) {
-        outs[count++] = outfile_open(c->stats);
-        stats_write(outs[1], blob, stats, seconds);
+        outs[count] = outfile_open(c->stats);
+        stats_write(outs[count++], blob, stats, seconds);
+    }
+    if (c->plot != NULL) {
+        outs[count] = outfile_open(c->plot);
+        draw_plot(outs[count++], blob);
     }
     outfile_commit_all(outs, count);
 }
 
-static void compile(const struct command *c)
+/* Compiles a model that was read; the model's name is for messages. */
+static void compile(const struct command *c, const char *name, struct model *model,
+                    struct compile_options *options, double begin)
+{
+    struct problem problem;
+    struct blob blob;
+    struct compile_stats stats;
+    struct outfile *explained = c->explain ? outfile_open("-") : NULL;
+    options->explain = explained != NULL ? outfile_stream(explained) : NULL;
+    if (!compile_model(&blob, &stats, model, options, &problem)) {
+        fail(FAIL_INPUT, name, problem.line, "%s", problem.text);
+    }
+    check_report(&stats.check, name);
+    warn_about(name, model);
+    if (explained != NULL) {
+        outfile_commit(explained);
+    }
+    write_files(c, &blob, &stats, progress_clock() - begin);
+    blob_free(&blob);
+    import_free(model);
+}
+
+static void compile_new(const struct command *c)
 {
     double begin = progress_clock();
     struct problem problem;
     struct model model;
-    struct blob blob;
-    struct compile_stats stats;
+    struct user_planes planes = { 0 };
     struct compile_options options = {
+        .method = (enum method)c->method,
         .select = (enum bsp_select)c->select,
         .candidates = (uint32_t)c->candidates,
+        .conflict_weight = c->conflict_weight,
+        .dividing = c->planes_file != NULL ? &planes : NULL,
+        .dividing_axis = c->dividing == 1,
         .seed = c->seed,
         .sides = (enum sides)c->sides,
         .tolerance_q8 = tolerance_q8(c),
         .keep_ids = c->keep_ids,
         .keep_normals = c->normals == 1,
+        .compute_normals = c->normals == 2,
+        .crease = c->crease,
+        .check = true,
+        .repair = c->repair,
         .progress = true,
     };
-    if (!import_file(&model, c->model, &problem) ||
-        !compile_model(&blob, &stats, &model, &options, &problem)) {
+    if (c->planes_file != NULL && !user_planes_read_file(&planes, c->planes_file, &problem)) {
+        fail(FAIL_INPUT, c->planes_file, problem.line, "%s", problem.text);
+    }
+    if (!import_file(&model, c->model, &problem)) {
         fail(FAIL_INPUT, c->model, problem.line, "%s", problem.text);
     }
-    warn_about(c, &model);
-    write_files(c, &blob, &stats, progress_clock() - begin);
-    blob_free(&blob);
-    import_free(&model);
+    compile(c, c->model, &model, &options, begin);
+    user_planes_free(&planes);
+}
+
+/* The new polygons are treated as the tree's own were. */
+static void compile_into(const struct command *c)
+{
+    double begin = progress_clock();
+    struct problem problem;
+    struct model model;
+    struct blob_file file;
+    struct insertion into;
+    blob_file_open(&file, c->model);
+    if (!insertion_begin(&into, &file, &problem)) {
+        fail(FAIL_INPUT, c->model, 0, "%s", problem.text);
+    }
+    struct compile_options options = {
+        .method = METHOD_ONLINE,
+        .into = &into,
+        .sides = (file.tree.flags & OW_TREE_TWO_SIDED) ? SIDES_TWO : SIDES_ONE,
+        .tolerance_q8 = file.tolerance_q8,
+        .keep_ids = (file.tree.flags & OW_TREE_IDS) != 0,
+        .keep_normals = (file.tree.flags & OW_TREE_NORMALS) != 0,
+        .check = true,
+        .repair = c->repair,
+        .progress = true,
+    };
+    if (!import_file(&model, c->insert, &problem) || !insertion_take(&into, &model, &problem)) {
+        fail(FAIL_INPUT, c->insert, problem.line, "%s", problem.text);
+    }
+    compile(c, c->insert, &model, &options, begin);
+    insertion_free(&into);
+    blob_file_close(&file);
 }
 
 int main(int argc, char **argv)
@@ -184,13 +320,19 @@ int main(int argc, char **argv)
                                .select = BSP_KEDEM,
                                .sides = SIDES_AUTO,
                                .candidates = 5,
+                               .conflict_weight = 1,
+                               .crease = 40,
                                .seed = 1 };
     fail_set_program("owc");
     parse(&command, argc, argv);
     if (command.info != NULL) {
         info_print(command.info);
+    } else if (command.locate_given) {
+        locate_print(command.model, command.locate);
+    } else if (command.insert != NULL) {
+        compile_into(&command);
     } else {
-        compile(&command);
+        compile_new(&command);
     }
     return 0;
 }

@@ -16,8 +16,7 @@ void mesh_discard(struct mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-void mesh_area(const int16_t (*points)[3], const uint32_t *corners, uint32_t count,
-               int64_t area[3])
+void mesh_area(const int16_t (*points)[3], const uint32_t *corners, uint32_t count, int64_t area[3])
 {
     const int16_t *o = points[corners[0]];
     area[0] = area[1] = area[2] = 0;

@@ -36,8 +36,8 @@ struct mesh {
     size_t corner_count;
     uint32_t *sources; /* vertex numbers of the model */
     size_t source_corner_count;
-    bool closed; /* each directed edge has its reverse, and the volume is positive */
-    uint32_t uneven_cut;         /* polygons that were not flat and became triangles */
+    bool closed;         /* each directed edge has its reverse, and the volume is positive */
+    uint32_t uneven_cut; /* polygons that were not flat and became triangles */
     uint32_t degenerate_dropped; /* no area on the lattice */
     uint32_t degenerate_kept;    /* no area, but too many neighbours to do without */
     uint32_t repeated_dropped;   /* the same corners as a later polygon */

@@ -61,5 +61,6 @@ void pieces_free(struct pieces *pieces)
     free(pieces->vertices);
     free(pieces->edges);
     free(pieces->normals);
+    free(pieces->cuts);
     *pieces = (struct pieces){ 0 };
 }

@@ -17,6 +17,12 @@ struct piece {
     uint32_t record;  /* its plane */
 };
 
+/* What was cut, and by which plane. */
+struct piece_cut {
+    uint32_t polygon; /* of the mesh */
+    uint32_t plane;
+};
+
 /* Corner arrays run in parallel. An edge word is line << 1 | mark, of the edge to the next corner. */
 struct pieces {
     struct piece *all;
@@ -30,7 +36,9 @@ struct pieces {
     size_t edge_capacity;
     size_t normal_capacity;
     bool with_normals;
-    uint32_t splits;
+    struct piece_cut *cuts; /* in their order */
+    size_t cut_capacity;
+    uint32_t splits; /* so many */
 };
 
 /* One piece for each polygon of the mesh, with the same number. */

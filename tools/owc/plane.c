@@ -38,13 +38,13 @@ struct grouper {
     struct mesh *mesh;
     const struct model *model;
     struct own_plane *own;
-    uint32_t *order;       /* polygons, largest first */
-    uint32_t *at_first;    /* polygons at each point: a list of lists */
+    uint32_t *order;    /* polygons, largest first */
+    uint32_t *at_first; /* polygons at each point: a list of lists */
     uint32_t *at_polygons;
-    struct map64 cells;    /* hash of a plane to the first polygon with it */
+    struct map64 cells; /* hash of a plane to the first polygon with it */
     uint32_t *cell_next;
-    uint32_t *tried;       /* the founder that last tried this polygon */
-    uint32_t *members;     /* of the record being made */
+    uint32_t *tried;   /* the founder that last tried this polygon */
+    uint32_t *members; /* of the record being made */
     uint32_t member_count;
 };
 
@@ -380,8 +380,8 @@ uint32_t plane_add(struct planes *planes, const int32_t n[3], int64_t d, int64_t
     }
     plane.tolerance = exact_tolerance(n, planes->tolerance_q8);
     plane.sure = (double)(plane.tolerance > reach ? plane.tolerance : reach) + 1;
-    planes->all = xgrow(planes->all, &planes->capacity, (size_t)planes->count + 1,
-                        sizeof *planes->all);
+    planes->all =
+        xgrow(planes->all, &planes->capacity, (size_t)planes->count + 1, sizeof *planes->all);
     planes->all[planes->count] = plane;
     return planes->count++;
 }

@@ -17,8 +17,8 @@ double progress_clock(void)
 
 void progress_begin(struct progress *progress, bool wanted)
 {
-    *progress = (struct progress){ .enabled = wanted && isatty(STDERR_FILENO),
-                                   .begin = progress_clock() };
+    *progress =
+        (struct progress){ .enabled = wanted && isatty(STDERR_FILENO), .begin = progress_clock() };
 }
 
 void progress_show(struct progress *progress, const char *what, uint64_t done, uint64_t all)

@@ -23,10 +23,10 @@
 
 struct orders {
     const struct arrangement *arrangement;
-    size_t *first;           /* of each line's vertices, its ends excepted */
+    size_t *first; /* of each line's vertices, its ends excepted */
     uint32_t *vertices;
-    uint32_t *rank;          /* of a vertex on the line that it was made on, from 1 */
-    struct map64 crossings;  /* ranks of crossings by line and vertex */
+    uint32_t *rank;         /* of a vertex on the line that it was made on, from 1 */
+    struct map64 crossings; /* ranks of crossings by line and vertex */
 };
 
 struct entry {
@@ -197,8 +197,7 @@ static void put_inserted(struct maker *m, size_t first, size_t from, size_t to, 
     if (m->pieces->with_normals) {
         normal_at(m, from, to, vertex, normal);
     }
-    put_corner(m->out, first, lattice_of(m, vertex), mark,
-               m->pieces->with_normals ? normal : NULL);
+    put_corner(m->out, first, lattice_of(m, vertex), mark, m->pieces->with_normals ? normal : NULL);
     m->out->inserted++;
 }
 
@@ -282,8 +281,7 @@ static bool is_bent(const int16_t (*corners)[3], uint32_t count, const double ar
     return false;
 }
 
-static void set_normal(struct maker *m, struct outline_final *outline,
-                       const struct piece *piece)
+static void set_normal(struct maker *m, struct outline_final *outline, const struct piece *piece)
 {
     const int16_t(*corners)[3] = (const int16_t(*)[3])m->out->corners + outline->first;
     const struct mesh_polygon *polygon = &m->mesh->polygons[piece->polygon];

@@ -19,7 +19,7 @@
 struct outline_final {
     size_t first; /* of its corners */
     uint32_t count;
-    bool uneven;  /* OW_POLYGON_UNEVEN */
+    bool uneven; /* OW_POLYGON_UNEVEN */
     int8_t normal[3];
 };
 
@@ -27,10 +27,10 @@ struct repaired {
     struct outline_final *outlines;
     uint32_t outline_count;
     size_t outline_capacity;
-    uint32_t *first;      /* outlines of piece i: first[i] .. first[i + 1] - 1, mostly one */
+    uint32_t *first; /* outlines of piece i: first[i] .. first[i + 1] - 1, mostly one */
     int16_t (*corners)[3];
-    uint8_t *marks;       /* of the edge to the next corner */
-    float (*normals)[3];  /* NULL unless normals are kept */
+    uint8_t *marks;      /* of the edge to the next corner */
+    float (*normals)[3]; /* NULL unless normals are kept */
     size_t corner_count;
     size_t corner_capacity;
     size_t mark_capacity;

@@ -235,7 +235,9 @@ void split_piece(struct splitter *splitter, struct arrangement *arrangement,
     find_chord(&cut);
     *front = put_piece(&cut, true);
     *back = put_piece(&cut, false);
-    pieces->splits++;
+    pieces->cuts = xgrow(pieces->cuts, &pieces->cut_capacity, (size_t)pieces->splits + 1,
+                         sizeof *pieces->cuts);
+    pieces->cuts[pieces->splits++] = (struct piece_cut){ cut.piece.polygon, plane };
 }
 
 void splitter_free(struct splitter *splitter)

@@ -29,9 +29,8 @@ struct splitter {
  * come out as one outline that runs along the cut more than once: by the
  * winding rule that is several faces.
  */
-void split_piece(struct splitter *splitter, struct arrangement *arrangement,
-                 struct pieces *pieces, uint32_t piece, uint32_t plane, uint32_t *front,
-                 uint32_t *back);
+void split_piece(struct splitter *splitter, struct arrangement *arrangement, struct pieces *pieces,
+                 uint32_t piece, uint32_t plane, uint32_t *front, uint32_t *back);
 
 void splitter_free(struct splitter *splitter);
 

@@ -105,6 +105,22 @@ void tree_prune(struct tree *tree, const uint32_t *first_outline, const uint32_t
     free(pruned);
 }
 
+bool tree_is_switch_only(const struct tree *tree)
+{
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        const struct tree_node *node = &tree->nodes[i];
+        const tree_item *items = tree->items + node->first;
+        for (uint32_t k = 1; node->plane == MESH_NONE && k < node->count; k++) {
+            if (tree_item_tag(items[0]) == OW_ITEM_NODE ||
+                tree_item_tag(items[k]) == OW_ITEM_NODE ||
+                tree_item_value(items[0]) != tree_item_value(items[k])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 void tree_free(struct tree *tree)
 {
     free(tree->nodes);

@@ -3,6 +3,7 @@
 #ifndef OWC_TREE_H
 #define OWC_TREE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -59,6 +60,12 @@ void tree_add_item(struct tree *tree, uint32_t node, tree_item item);
  * OW_ITEM_NONE if nothing is left. plane_of[i]: the plane of piece i.
  */
 void tree_prune(struct tree *tree, const uint32_t *first_outline, const uint32_t *plane_of);
+
+/*
+ * True if no sequence orders faces: each holds at most the two sides of one
+ * piece. The switches alone then order back faces too.
+ */
+bool tree_is_switch_only(const struct tree *tree);
 
 void tree_free(struct tree *tree);
 

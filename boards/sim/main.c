@@ -42,6 +42,7 @@ struct run {
     struct bench bench;
     struct ow_stats sum; /* of all frames */
     uint32_t dropped;    /* frames of which a part was left out */
+    uint32_t cut_short;  /* frames whose work budget ran out */
     struct outfile *dump;
 };
 
@@ -172,6 +173,7 @@ static void add_stats(struct run *run)
     run->sum.spans += stats->spans;
     run->sum.polygons_dropped += stats->polygons_dropped;
     run->dropped += run->viewer.drawn == OW_CAPACITY;
+    run->cut_short += run->viewer.drawn == OW_BUDGET;
 }
 
 static void after_frame(struct run *run, uint64_t drawn_ns)
@@ -220,6 +222,10 @@ static void finish(struct run *run)
     if (run->dump != NULL) {
         fputs("\n]\n", outfile_stream(run->dump));
         outfile_commit(run->dump);
+    }
+    if (run->cut_short > 0) {
+        warn_line(NULL, 0, "the budget ran out in %" PRIu32 " frames: only what is near was drawn",
+                  run->cut_short);
     }
     if (run->dropped > 0) {
         warn_line(run->tree.name, 0,

@@ -67,6 +67,7 @@ struct raw {
     double ambient;
     double highlight;
     uint64_t shininess;
+    uint64_t budget;
     double light[3];
     bool light_in_model;
     bool has_orbit;
@@ -174,6 +175,10 @@ static void read_look(struct settings *settings, const struct raw *raw)
     look->ambient_q8 = (uint16_t)lround(raw->ambient * ONE_Q8);
     look->specular_q8 = (uint16_t)lround(raw->highlight * ONE_Q8);
     look->shininess = (uint8_t)raw->shininess;
+    look->budget = (uint32_t)raw->budget;
+    if (look->budget > 0 && look->order != OW_FRONT_TO_BACK) {
+        settings_wrong("--budget needs --order front-to-back: what is near must come first");
+    }
     read_light(&look->light, raw);
     settings->format = ow_formats[raw->format];
     settings->panel = panel_kinds[raw->panel];
@@ -332,6 +337,9 @@ void settings_read(struct settings *s, int argc, char **argv)
           .min = 0, .max = 1 },
         { "shininess", 0, OPTION_UNSIGNED, &raw.shininess, "N",
           "phong: the highlight's exponent is 2^N", .min = 0, .max = 7 },
+        { "budget", 0, OPTION_UNSIGNED, &raw.budget, "N",
+          "work units a band may take: faces met and 16s of pixels; 0: no end (front-to-back)",
+          .max = UINT32_MAX },
         { "light", 0, OPTION_VECTOR, raw.light, "x,y,z",
           .help = "towards the light: right, up, to the viewer" },
         { "light-in-model", 0, OPTION_FLAG, &raw.light_in_model, NULL,

@@ -10,6 +10,8 @@
 #include "ow_lines.h"
 #include "ow_memory.h"
 
+enum { PIXELS_A_UNIT = 16 }; /* of the work budget */
+
 /* The walk asks: can nothing of what is below this node be seen? */
 static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bounds_at)
 {
@@ -35,7 +37,8 @@ static bool workspace_fits(const struct ow_workspace *workspace, const struct ow
                            const struct ow_view *view)
 {
     return view->width <= workspace->width && workspace->capacity >= 2 * tree->max_corners &&
-           (workspace->cache_mask != OW_CACHE_ALL || workspace->cache_entries >= tree->vertex_count);
+           (workspace->cache_mask != OW_CACHE_ALL ||
+            workspace->cache_entries >= tree->vertex_count);
 }
 
 /* Begins the walk; what the last one counted is added up. */
@@ -58,6 +61,9 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
 {
     struct ow_frame *frame = workspace->frame;
     if (!workspace_fits(workspace, tree, view) || !ow_look_fits(look, workspace)) {
+        return OW_ARGUMENT;
+    }
+    if (look->budget > 0 && look->order != OW_FRONT_TO_BACK) {
         return OW_ARGUMENT;
     }
     if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
@@ -114,7 +120,14 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
 void ow_frame_walk(struct ow_frame *frame)
 {
     (void)begin_walk(frame, frame->kind->direction); /* ow_draw_begin has seen that it can */
-    while (frame->surface.lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
+    const struct ow_surface *surface = &frame->surface;
+    const uint32_t before = surface->pixels_written;
+    const uint32_t budget = frame->look->budget > 0 ? frame->look->budget : UINT32_MAX;
+    while (surface->lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
+        if (frame->walk.faces_met + (surface->pixels_written - before) / PIXELS_A_UNIT > budget) {
+            frame->out_of_budget = true;
+            break;
+        }
         frame->painted += ow_draw_face(frame);
     }
     end_walk(frame);
@@ -164,6 +177,9 @@ enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_targ
             .polygons_unlisted = frame->unlisted,
             .polygons_dropped = frame->dropped,
         };
+    }
+    if (frame->out_of_budget) {
+        return OW_BUDGET;
     }
     return frame->dropped > 0 ? OW_CAPACITY : OW_OK;
 }

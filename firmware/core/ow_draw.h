@@ -71,6 +71,12 @@ struct ow_look {
      * coverage and OW_FRONT_TO_BACK. Not OW_SHADE_ID, not OW_SHADE_LINES.
      */
     bool coverage;
+    /*
+     * A deadline for OW_FRONT_TO_BACK: most work units a band may take, 0: no end. A face
+     * that the walk comes by is one, 16 pixels written are one. When they are used up the
+     * walk stops: what is near is right, the rest of the band is background.
+     */
+    uint32_t budget;
 };
 
 /* Where the band's pixels go. */
@@ -152,8 +158,8 @@ enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct o
 
 /*
  * Begins a frame; tree, view and look must stay until its last band. Errors:
- * OW_ARGUMENT (a workspace that is too small, or without a list for scan line
- * order), OW_SIDES, OW_NORMALS.
+ * OW_ARGUMENT (a workspace that is too small or lacks what the look needs; a
+ * budget in another order than front to back), OW_SIDES, OW_NORMALS.
  */
 enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *view,
                              const struct ow_look *look, struct ow_workspace *workspace);
@@ -162,7 +168,8 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
  * Draws one band of the frame whole, background included. The picture does not
  * depend on the order, the bands or the cache. In scan line order each band
  * must be below the last one. stats, unless NULL: counted since ow_draw_begin.
- * Errors: OW_ARGUMENT, OW_CAPACITY (the rest was drawn).
+ * Errors: OW_ARGUMENT, OW_CAPACITY (the rest was drawn), OW_BUDGET (the near was
+ * drawn; in this band or one before).
  */
 enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_target *target,
                             struct ow_stats *stats);

@@ -40,6 +40,7 @@ struct ow_frame {
     struct ow_window window;
     enum ow_winding rule;
     uint32_t tag; /* the stamp in bits 24-31 */
+    bool out_of_budget;
     uint32_t dropped;
     void (*draw_face)(struct ow_frame *frame); /* in another way than ow_draw_face's; or NULL */
     uint32_t visited;                          /* faces that walks came by */

@@ -15,6 +15,7 @@ enum ow_status {
     OW_CAPACITY = -3, /* a capacity ran out: less was drawn, nothing was written past */
     OW_SIDES = -4,    /* a one-sided tree with sequences cannot show back faces */
     OW_NORMALS = -5,  /* smooth shading of a tree without vertex normals */
+    OW_BUDGET = -6,   /* the work budget ran out: what is near is right, the rest is background */
     /* The blob's side. */
     OW_MAGIC = -16,     /* these bytes are not an Oldwell tree */
     OW_VERSION = -17,   /* a tree of another format version */

@@ -18,6 +18,8 @@ const char *ow_status_text(int status)
         return "back faces have no order in this tree; compile with --sides two";
     case OW_NORMALS:
         return "the tree has no vertex normals; compile with --normals";
+    case OW_BUDGET:
+        return "the work budget ran out; only what is near was drawn";
     case OW_MAGIC:
         return "not an Oldwell tree";
     case OW_VERSION:

@@ -63,7 +63,7 @@ static void add_stats(struct ow_stats *sum, const struct ow_stats *part)
     sum->polygons_unlisted += part->polygons_unlisted;
     sum->polygons_dropped += part->polygons_dropped;
 }
-/* Has all workers do their part. A capacity that ran out is noted, not a failure. */
+/* Has all workers do their part. A capacity or budget that ran out is noted, not a failure. */
 static int draw_together(struct slices *slices)
 {
     struct ow_viewer *viewer = slices->viewer;
@@ -80,8 +80,8 @@ static int draw_together(struct slices *slices)
     for (uint32_t i = 0; i < viewer->workers; i++) {
         const struct ow_viewer_worker *worker = &viewer->worker[i];
         add_stats(&viewer->stats, &worker->stats);
-        if (worker->status == OW_CAPACITY) {
-            viewer->drawn = OW_CAPACITY;
+        if (worker->status == OW_CAPACITY || worker->status == OW_BUDGET) {
+            viewer->drawn = (enum ow_status)worker->status;
         } else if (worker->status < 0) {
             status = worker->status;
         }

@@ -102,7 +102,7 @@ struct ow_viewer {
     bool finished;         /* no step will draw any more */
     uint32_t number;       /* of the view drawn last or to be drawn next */
     uint32_t frames;       /* shown since the start */
-    enum ow_status drawn;  /* of the last frame: OW_OK, or OW_CAPACITY (something was left out) */
+    enum ow_status drawn;  /* of the last frame: OW_OK, OW_CAPACITY or OW_BUDGET (something was left out) */
     struct ow_view view;   /* of the last frame, turned as the panel needs it */
     struct ow_stats stats; /* of the last frame */
 

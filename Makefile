@@ -35,7 +35,7 @@ endif
 PKG_CONFIG ?= pkg-config
 pkg         = $(shell $(PKG_CONFIG) $(1) $(2) 2>/dev/null)
 core_flags  = -std=c11 -ffreestanding $(CFLAGS) $(warnings) $(sanitize) -I. -Ifirmware/core
-host_flags  = -std=c11 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(warnings) $(sanitize) \
+host_flags  = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off $(CFLAGS) $(warnings) $(sanitize) \
               -I. -Ifirmware/core $(private_cflags)
 link        = $(CC) $(CFLAGS) $(sanitize) $(LDFLAGS) $(private_ldflags)
 

@@ -92,6 +92,25 @@ static void check_tree(const struct run *run)
     }
 }
 
+/* The cutting plane in lattice units; its direction is the same. */
+static void set_cut(struct run *run)
+{
+    const double *cut = run->settings.cut;
+    const struct tree_file *tree = &run->tree;
+    double length = sqrt(cut[0] * cut[0] + cut[1] * cut[1] + cut[2] * cut[2]);
+    double distance = cut[3];
+    for (int i = 0; i < 3; i++) {
+        distance -= cut[i] * tree->origin[i];
+        run->config.cut_normal[i] = (int32_t)lround(cut[i] / length * (1 << 30));
+    }
+    distance = distance / length / tree->step * 256;
+    double most = OW_EYE_MAX; /* all of the model lies on one side by then */
+    run->config.cut_distance = (ow_q8)lround(distance > most    ? most
+                                             : distance < -most ? -most
+                                                                : distance);
+    run->config.cuts = true;
+}
+
 /* Distances of the look, which only the tree can bring into lattice units. */
 static void scale_look(struct ow_look *look, const struct run *run)
 {
@@ -113,6 +132,9 @@ static void start_viewer(struct run *run)
     run->clock = (struct ow_clock){ &sim_virtual_clock_ops, &run->time };
     config->tree = &run->tree.tree;
     config->look = settings->look;
+    if (settings->cuts) {
+        set_cut(run);
+    }
     scale_look(&config->look, run);
     config->camera = run->views.lens;
     config->views = run->views.count;

@@ -14,14 +14,7 @@
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 
-enum {
-    ONE_Q8 = 256,
-    ONE_Q14 = 1 << 14,
-    ELEVATION_MAX = 89,
-    ORBIT_MAX = 100000,
-    SPECULAR_Q8 = 96,
-    SHININESS = 5
-};
+enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000 };
 
 /* Names in the order of the core's enums where there is one; the rest is not there yet. */
 static const char *const orders[] = { "back-to-front", "front-to-back", "scanline", "auto", NULL };
@@ -68,6 +61,8 @@ struct raw {
     double highlight;
     uint64_t shininess;
     uint64_t budget;
+    const char *cut;
+    const char *cap;
     double light[3];
     bool light_in_model;
     bool has_orbit;
@@ -139,6 +134,22 @@ static void read_depth_cue(double depth[2], const char *text)
     }
 }
 
+static void read_cut(double cut[4], const char *text)
+{
+    const char *at = text;
+    char *end = NULL;
+    for (int i = 0; i < 4; i++) {
+        cut[i] = strtod(at, &end);
+        if (end == at || *end != (i < 3 ? ',' : '\0') || !isfinite(cut[i])) {
+            settings_wrong("--cut takes four numbers A,B,C,D, not '%s'", text);
+        }
+        at = end + 1;
+    }
+    if (cut[0] == 0 && cut[1] == 0 && cut[2] == 0) {
+        settings_wrong("--cut needs a direction: A, B and C are all 0");
+    }
+}
+
 /* What excludes what. */
 static void check_look(const struct settings *settings, const struct raw *raw)
 {
@@ -164,8 +175,6 @@ static void read_look(struct settings *settings, const struct raw *raw)
     look->cull = (enum ow_cull)raw->cull;
     look->background = look->shade == OW_SHADE_ID ? 0 : read_colour("background", raw->background);
     look->foreground = read_colour("foreground", raw->foreground);
-    look->specular_q8 = SPECULAR_Q8;
-    look->shininess = SHININESS;
     look->dither = raw->dither;
     look->map = (enum ow_map)raw->map;
     look->coverage = raw->coverage != 0;
@@ -179,6 +188,12 @@ static void read_look(struct settings *settings, const struct raw *raw)
     if (look->budget > 0 && look->order != OW_FRONT_TO_BACK) {
         settings_wrong("--budget needs --order front-to-back: what is near must come first");
     }
+    if (raw->cut != NULL) {
+        settings->cuts = true;
+        read_cut(settings->cut, raw->cut);
+    }
+    look->caps = strcmp(raw->cap, "none") != 0;
+    look->cap = look->caps ? read_colour("cap", raw->cap) : 0;
     read_light(&look->light, raw);
     settings->format = ow_formats[raw->format];
     settings->panel = panel_kinds[raw->panel];
@@ -276,6 +291,7 @@ static void set_defaults(struct settings *settings, struct raw *raw)
         .foreground = "f0f0f0",
         .ambient = 0.3,
         .highlight = 0.4,
+        .cap = "c05040",
         .shininess = 4,
         .light = { -0.4, 0.6, 0.7 },
     };
@@ -337,6 +353,10 @@ void settings_read(struct settings *s, int argc, char **argv)
           .min = 0, .max = 1 },
         { "shininess", 0, OPTION_UNSIGNED, &raw.shininess, "N",
           "phong: the highlight's exponent is 2^N", .min = 0, .max = 7 },
+        { "cut", 0, OPTION_STRING, &raw.cut, "A,B,C,D",
+          .help = "keeps only where A x + B y + C z >= D; needs --sides two in owc" },
+        { "cap", 0, OPTION_STRING, &raw.cap, "RRGGBB",
+          .help = "where a closed model is cut; none: its inside is seen" },
         { "budget", 0, OPTION_UNSIGNED, &raw.budget, "N",
           "work units a band may take: faces met and 16s of pixels; 0: no end (front-to-back)",
           .max = UINT32_MAX },

@@ -32,6 +32,8 @@ struct settings {
     const struct ow_pixel_format *format;
     enum sim_panel_kind panel;
     uint32_t threads;
+    bool cuts;
+    double cut[4];       /* keeps where cut[0] x + cut[1] y + cut[2] z >= cut[3], model units */
     uint64_t band_lines; /* 0: all */
 
     const char *output; /* pattern, or "-", or NULL */

@@ -2,15 +2,17 @@
 /* Stage "clip": Sutherland-Hodgman against five planes, in camera units. */
 #include "ow_clip.h"
 
-enum clip_plane { CLIP_NEAR, CLIP_LEFT, CLIP_RIGHT, CLIP_BOTTOM, CLIP_TOP, CLIP_PLANES };
+enum clip_plane { CLIP_NEAR, CLIP_CUT, CLIP_LEFT, CLIP_RIGHT, CLIP_BOTTOM, CLIP_TOP, CLIP_PLANES };
 
-/* Distance inside a plane, up to a factor; negative: outside. At most 45 bits. */
+/* Distance inside a plane, up to a factor; negative: outside. Below 2^56. */
 static int64_t inside_by(const struct ow_view *view, const struct ow_camera_point *p,
                          enum clip_plane plane)
 {
     switch (plane) {
     case CLIP_NEAR:
         return (int64_t)p->z - view->near_z;
+    case CLIP_CUT:
+        return ow_kept_by(view, p->x, p->y, p->z);
     case CLIP_LEFT:
         return ow_reach(view, p->z) + p->x;
     case CLIP_RIGHT:
@@ -37,6 +39,9 @@ static void settle(const struct ow_view *view, struct ow_camera_point *p, enum c
     if (plane == CLIP_NEAR) {
         p->z = view->near_z;
         return;
+    }
+    if (plane == CLIP_CUT) {
+        return; /* a unit beyond it does no harm */
     }
     int32_t reach = (int32_t)ow_reach(view, p->z);
     if (plane == CLIP_LEFT || plane == CLIP_RIGHT) {
@@ -102,8 +107,11 @@ uint32_t ow_clip(const struct ow_view *view, struct ow_camera_point *const point
                  uint32_t count, uint32_t capacity, uint32_t *which, bool *overflow)
 {
     uint32_t in = 0;
-    enum clip_plane first = view->projection == OW_PERSPECTIVE ? CLIP_NEAR : CLIP_LEFT;
+    enum clip_plane first = view->projection == OW_PERSPECTIVE ? CLIP_NEAR : CLIP_CUT;
     for (enum clip_plane plane = first; plane < CLIP_PLANES && count > 0; plane++) {
+        if (plane == CLIP_CUT && !view->cuts) {
+            continue;
+        }
         count = clip_by_plane(view, points[in], count, points[in ^ 1], capacity, plane);
         in ^= 1;
         if (count > capacity) {

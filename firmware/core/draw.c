@@ -69,6 +69,9 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
         return OW_NORMALS;
     }
+    if (view->cuts && !(tree->flags & OW_TREE_TWO_SIDED)) {
+        return OW_SIDES;
+    }
     memset(frame, 0, sizeof *frame);
     frame->sink =
         (struct ow_span_sink){ workspace->spans, 0, workspace->span_capacity, ow_paint_spans };
@@ -83,6 +86,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
                                                      : NULL;
     ow_frustum_make(&frame->frustum, view);
     ow_shader_make(&frame->shader, look, view);
+    frame->shader.caps = frame->shader.caps && (tree->flags & OW_TREE_CLOSED);
     enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     if (status == OW_OK && workspace->cache_mask == OW_CACHE_ALL) {

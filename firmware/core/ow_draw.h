@@ -77,6 +77,13 @@ struct ow_look {
      * walk stops: what is near is right, the rest of the band is background.
      */
     uint32_t budget;
+    /*
+     * With ow_view_cut, where the tree says that the model is closed: what shows the
+     * inside is drawn as a flat cap in the cutting plane, in this colour, 0x00RRGGBB.
+     * Otherwise the inside is seen.
+     */
+    bool caps;
+    uint32_t cap;
 };
 
 /* Where the band's pixels go. */

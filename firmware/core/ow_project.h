@@ -80,9 +80,16 @@ static inline int64_t ow_reach(const struct ow_view *view, int32_t z)
     return view->projection == OW_PERSPECTIVE ? ((int64_t)z * view->limit) >> 16 : view->limit;
 }
 
+/* How far on the kept side of the cutting plane, 20 fraction bits: below 2^56. */
+static inline int64_t ow_kept_by(const struct ow_view *view, int32_t x, int32_t y, int32_t z)
+{
+    return (int64_t)view->cut_q20[0] * x + (int64_t)view->cut_q20[1] * y +
+           (int64_t)view->cut_q20[2] * z + view->cut_offset;
+}
+
 static inline bool ow_is_inside(const struct ow_view *view, struct ow_camera_point p)
 {
-    if (p.z < view->near_z) {
+    if (p.z < view->near_z || (view->cuts && ow_kept_by(view, p.x, p.y, p.z) < 0)) {
         return false;
     }
     int64_t reach = ow_reach(view, p.z);

@@ -11,6 +11,9 @@
 
 /* The look of one frame, made ready. */
 struct ow_shader {
+    bool caps;    /* backs are drawn as the flat cap of a cut */
+    uint32_t cap; /* its colour */
+    int8_t cap_normal[3];
     enum ow_shade shade;
     int32_t ambient_q16;
     int32_t light_q16[3];   /* intensity (256 is full) that one unit of an i8 normal adds */

@@ -6,6 +6,7 @@
 #ifndef OW_VIEW_H
 #define OW_VIEW_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "ow_fixed.h"
@@ -44,6 +45,10 @@ struct ow_view {
     uint16_t height;
     uint8_t camera_shift; /* 38 fraction bits less this are the camera units' fraction bits */
     uint8_t projection;   /* enum ow_projection */
+    bool cuts;            /* ow_view_cut was called: the rest is set */
+    ow_q30 cut_axis[3];   /* model axes: unit vector into what is kept */
+    int32_t cut_q20[3];   /* the same in camera axes, 20 fraction bits */
+    int64_t cut_offset;   /* a camera point p is kept if cut_q20.p + cut_offset >= 0 */
 };
 
 /* What the caller says of a view. */
@@ -66,6 +71,14 @@ enum { OW_NEAR_DEFAULT = 16 * 256 };
  * gives the same bits on every machine. Errors: OW_ARGUMENT.
  */
 enum ow_status ow_view_make(struct ow_view *view, const struct ow_camera *camera);
+
+/*
+ * Cuts the model open: from now on only points v with normal.v >= distance are
+ * drawn [FAG83]. normal: any length; distance along the unit normal, lattice
+ * steps, within OW_EYE_MAX. To be called after ow_view_make; the tree must order
+ * back faces (ow_draw_begin says OW_SIDES if it does not). Errors: OW_ARGUMENT.
+ */
+enum ow_status ow_view_cut(struct ow_view *view, const int32_t normal[3], ow_q8 distance);
 
 /*
  * Sets eye, at and up of a camera on the standard orbit: around the bounding

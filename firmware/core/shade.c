@@ -112,6 +112,11 @@ void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
         shader->light_q16[i] = (int32_t)((along * PER_NORMAL_Q22) >> (14 + 22 - 16));
     }
     make_unit(shader->halfway_q14);
+    shader->caps = view->cuts && look->caps;
+    shader->cap = look->cap;
+    for (int i = 0; i < 3 && view->cuts; i++) { /* the cap looks at what was taken away */
+        shader->cap_normal[i] = (int8_t) - (((int64_t)view->cut_axis[i] * 127 + (1 << 29)) >> 30);
+    }
 }
 
 static uint32_t scale_channel(uint32_t colour, uint32_t shift, uint32_t intensity)
@@ -125,15 +130,26 @@ static uint32_t scale_colour(uint32_t colour, uint32_t intensity)
            scale_channel(colour, 0, intensity);
 }
 
+/* A stored normal of the side that is seen; the cap's where a cut shows the inside. */
+static void seen_normal(const struct ow_shader *shader, const uint8_t *bytes, uint32_t normal_at,
+                        bool reverse, int32_t normal[3])
+{
+    for (uint32_t i = 0; i < 3; i++) {
+        int32_t n = ow_read_i8(bytes, normal_at + i);
+        normal[i] = !reverse ? n : shader->caps ? shader->cap_normal[i] : -n;
+    }
+}
+
 /* Intensity at a stored normal, 65536 for full. */
 static int32_t intensity_q16(const struct ow_shader *shader, const uint8_t *bytes,
                              uint32_t normal_at, bool reverse)
 {
+    int32_t normal[3];
+    seen_normal(shader, bytes, normal_at, reverse, normal);
     int64_t light = 0;
     for (uint32_t i = 0; i < 3; i++) {
-        light += (int64_t)ow_read_i8(bytes, normal_at + i) * shader->light_q16[i];
+        light += (int64_t)normal[i] * shader->light_q16[i];
     }
-    light = reverse ? -light : light;
     int64_t intensity = (shader->ambient_q16 + (light > 0 ? light : 0)) >> 8;
     return intensity > 65536 ? 65536 : (int32_t)intensity;
 }
@@ -146,6 +162,9 @@ uint32_t ow_face_colour(const struct ow_shader *shader, const struct ow_tree *tr
         return (tree->flags & OW_TREE_IDS)
                    ? ow_read_u32(bytes, face->at + OW_POLYGON_HEAD_BYTES) & 0xFFFFFF
                    : 0xFFFFFF;
+    }
+    if (face->reverse && shader->caps) {
+        return shader->cap;
     }
     uint32_t number = ow_read_u16(bytes, face->at + 4) & OW_POLYGON_COLOUR_MASK;
     return ow_read_u32(bytes, tree->colours_at + number * OW_COLOUR_BYTES);
@@ -235,9 +254,9 @@ struct ow_corner_light ow_shade_corner(const struct ow_shader *shader, const str
         light.part[0] = intensity_q16(shader, tree->bytes, at, reverse);
         return light;
     }
+    seen_normal(shader, tree->bytes, at, reverse, light.part);
     for (uint32_t i = 0; i < 3; i++) {
-        int32_t n = ow_read_i8(tree->bytes, at + i) * (1 << NORMAL_BITS);
-        light.part[i] = reverse ? -n : n;
+        light.part[i] *= 1 << NORMAL_BITS;
     }
     return light;
 }

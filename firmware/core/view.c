@@ -167,6 +167,7 @@ enum ow_status ow_view_make(struct ow_view *view, const struct ow_camera *camera
     view->width = camera->width_pixels;
     view->height = camera->height_pixels;
     view->projection = (uint8_t)camera->projection;
+    view->cuts = false;
     if (!make_axes(view, camera)) {
         return OW_ARGUMENT;
     }
@@ -176,6 +177,27 @@ enum ow_status ow_view_make(struct ow_view *view, const struct ow_camera *camera
     } else {
         make_parallel(view, camera);
     }
+    return OW_OK;
+}
+
+enum ow_status ow_view_cut(struct ow_view *view, const int32_t normal[3], ow_q8 distance)
+{
+    int64_t given[3] = { normal[0], normal[1], normal[2] };
+    if (distance < -OW_EYE_MAX || distance > OW_EYE_MAX || !make_unit(view->cut_axis, given)) {
+        return OW_ARGUMENT;
+    }
+    const ow_q30 *axes[3] = { view->right, view->up, view->forward };
+    int64_t ahead = -((int64_t)distance << 30); /* normal.eye - distance, 38 fraction bits */
+    for (int a = 0; a < 3; a++) {
+        int64_t sum = 0;
+        for (int i = 0; i < 3; i++) {
+            sum += ((int64_t)axes[a][i] * view->cut_axis[i]) >> 10;
+        }
+        view->cut_q20[a] = (int32_t)(sum >> 30);
+        ahead += (int64_t)view->cut_axis[a] * view->eye[a];
+    }
+    view->cut_offset = (ahead >> view->camera_shift) * (1 << 20);
+    view->cuts = true;
     return OW_OK;
 }
 

@@ -89,5 +89,8 @@ int viewer_make_view(struct ow_viewer *viewer)
         turn_view(&viewer->view);
         turn_light(&viewer->look.light);
     }
+    if (status == OW_OK && viewer->config.cuts) {
+        status = ow_view_cut(&viewer->view, viewer->config.cut_normal, viewer->config.cut_distance);
+    }
     return status;
 }

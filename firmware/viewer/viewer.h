@@ -58,7 +58,10 @@ struct ow_viewer_config {
     struct ow_camera camera; /* the lens: projection, fov or height, near */
 
     /* Views: a list, if view is given, or one turn of the standard orbit in equal steps. */
-    uint32_t views;       /* how many, at least 1 */
+    uint32_t views; /* how many, at least 1 */
+    bool cuts;      /* ow_view_cut with these */
+    int32_t cut_normal[3];
+    ow_q8 cut_distance;
     uint64_t interval_us; /* between two views' starts; 0: as fast as it goes */
     enum ow_viewer_end end;
     ow_turn elevation; /* orbit: of the eye above the horizon */
@@ -99,10 +102,11 @@ struct ow_viewer_worker {
 
 /* Fields down to `stats` are for reading, the rest is private. */
 struct ow_viewer {
-    bool finished;         /* no step will draw any more */
-    uint32_t number;       /* of the view drawn last or to be drawn next */
-    uint32_t frames;       /* shown since the start */
-    enum ow_status drawn;  /* of the last frame: OW_OK, OW_CAPACITY or OW_BUDGET (something was left out) */
+    bool finished;   /* no step will draw any more */
+    uint32_t number; /* of the view drawn last or to be drawn next */
+    uint32_t frames; /* shown since the start */
+    enum ow_status
+        drawn; /* of the last frame: OW_OK, OW_CAPACITY or OW_BUDGET (something was left out) */
     struct ow_view view;   /* of the last frame, turned as the panel needs it */
     struct ow_stats stats; /* of the last frame */
 

@@ -13,9 +13,12 @@
 /* From the best to the worst. */
 enum outcome { SAME, EDGE, NEAR_STEP, TIE, SLANT, RIM, STRIP, WRONG };
 
+/* A view with so many faults has failed: the search goes on coarsely, to be done in time. */
+enum { ENOUGH_FAULTS = 200 };
+
 struct search {
     const struct scene *scene;
-    double tie; /* lattice steps */
+    double tie;  /* lattice steps */
     double x, y; /* the pixel's centre */
     bool rims;   /* outlines that end at a rim may be off by rounding */
     enum outcome best;
@@ -152,7 +155,7 @@ static void try_all(struct search *search, uint32_t id, int level)
     }
 }
 
-/* ---- planes seen edge-on ---------------------------------------------------------------------- */
+/* ---- planes seen edge-on -------------------------------------------------------------------- */
 static struct vec point_at(const struct camera *c, double x, double y, double z)
 {
     struct vec r = scene_ray(c, x, y);
@@ -186,8 +189,8 @@ static bool share_a_plane(const struct search *search, const struct shape *plane
 }
 
 /* Does all that hides s at a point lie on one plane with s there? NULL: on any plane. */
-static bool strip_at(const struct search *search, const struct shape *s,
-                     const struct shape *plane, double x, double y)
+static bool strip_at(const struct search *search, const struct shape *s, const struct shape *plane,
+                     double x, double y)
 {
     const struct scene *scene = search->scene;
     uint32_t count;
@@ -278,10 +281,10 @@ static void try_strip(struct search *search, uint32_t id)
     }
 }
 
-/* ---- polygons shown --------------------------------------------------------------------------- */
+/* ---- polygons shown ------------------------------------------------------------------------- */
 /* The pixel shows polygon `id`. */
 static enum outcome judge_polygon(const struct scene *scene, double tie, int64_t x, int64_t y,
-                                  uint32_t id)
+                                  uint32_t id, bool coarse)
 {
     if (id > scene->id_count) {
         return WRONG;
@@ -291,8 +294,11 @@ static enum outcome judge_polygon(const struct scene *scene, double tie, int64_t
         return EDGE;
     }
     struct search search = { scene, tie, (double)x + 0.5, (double)y + 0.5, false, WRONG, TIE };
-    for (int level = 4; level <= 64 && search.best > TIE; level *= 4) {
+    for (int level = 4; level <= (coarse ? 4 : 64) && search.best > TIE; level *= 4) {
         try_all(&search, id, level);
+    }
+    if (coarse) {
+        return search.best;
     }
     search.rims = true;
     search.enough = RIM;
@@ -308,7 +314,7 @@ static enum outcome judge_polygon(const struct scene *scene, double tie, int64_t
     return search.best;
 }
 
-/* ---- background ------------------------------------------------------------------------------- */
+/* ---- background ----------------------------------------------------------------------------- */
 static bool is_empty(const struct scene *scene, double x, double y, bool rims)
 {
     uint32_t count;
@@ -340,12 +346,15 @@ static bool find_empty(const struct scene *scene, double x, double y, double rea
 }
 
 /* The pixel shows background where the oracle shows the model. */
-static enum outcome judge_background(const struct scene *scene, int64_t x, int64_t y)
+static enum outcome judge_background(const struct scene *scene, int64_t x, int64_t y, bool coarse)
 {
     double cx = (double)x + 0.5, cy = (double)y + 0.5;
     if (find_empty(scene, cx, cy, 1, false, false, 1) ||
         find_empty(scene, cx, cy, 1, false, false, 16)) {
         return EDGE;
+    }
+    if (coarse) {
+        return WRONG;
     }
     double z = scene->depth[(size_t)y * scene->camera->width + (size_t)x];
     double reach = scene_step(scene->camera, z);
@@ -355,11 +364,11 @@ static enum outcome judge_background(const struct scene *scene, int64_t x, int64
     return find_empty(scene, cx, cy, 1, false, true, 16) ? RIM : WRONG;
 }
 
-/* ---- the frame -------------------------------------------------------------------------------- */
+/* ---- the frame ------------------------------------------------------------------------------ */
 static void paint(uint8_t *rgb, enum outcome outcome, bool model, bool hole)
 {
-    static const uint8_t colours[8][3] = { { 90, 90, 90 }, { 60, 90, 160 }, { 150, 60, 150 },
-                                           { 60, 140, 60 }, { 150, 150, 40 }, { 40, 150, 150 },
+    static const uint8_t colours[8][3] = { { 90, 90, 90 },   { 60, 90, 160 },  { 150, 60, 150 },
+                                           { 60, 140, 60 },  { 150, 150, 40 }, { 40, 150, 150 },
                                            { 200, 120, 40 }, { 255, 0, 0 } };
     static const uint8_t hole_colour[3] = { 255, 255, 0 }, nothing[3] = { 0, 0, 0 };
     const uint8_t *c = colours[outcome];
@@ -416,13 +425,13 @@ void judge(const struct scene *scene, const uint32_t *frame, double tie, struct 
             uint32_t due = id_at(scene, x, y), shown = frame[at];
             enum outcome outcome = SAME;
             if (shown != due) {
-                outcome = shown ? judge_polygon(scene, tie, x, y, shown)
-                                : judge_background(scene, x, y);
+                bool coarse = verdict->wrong + verdict->holes >= ENOUGH_FAULTS;
+                outcome = shown ? judge_polygon(scene, tie, x, y, shown, coarse)
+                                : judge_background(scene, x, y, coarse);
             }
             if (due || shown) {
                 verdict->model += due != 0;
-                count_outcome(verdict, outcome, shown == 0,
-                              (struct example){ x, y, shown, due });
+                count_outcome(verdict, outcome, shown == 0, (struct example){ x, y, shown, due });
             }
             if (difference) {
                 paint(difference + 3 * at, outcome, due != 0, shown == 0);

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* ---- the blob's header: by the offsets of docs/FORMAT.md ------------------------------------- */
+/* ---- the blob's header: by the offsets of docs/FORMAT.md ------------------------------------ */
 static uint64_t little_endian(const uint8_t *bytes, size_t count)
 {
     uint64_t value = 0;
@@ -54,7 +54,7 @@ void lattice_read(struct lattice *lattice, const char *tree)
     }
 }
 
-/* ---- planes and triangles --------------------------------------------------------------------- */
+/* ---- planes and triangles ------------------------------------------------------------------- */
 static struct vec newell(const struct vec *points, const uint32_t *corners, uint32_t count)
 {
     struct vec n = { 0, 0, 0 };
@@ -175,7 +175,7 @@ void model_add_polygon(struct model *m, const uint32_t *corners, uint32_t count,
     }
 }
 
-/* ---- neighbours ------------------------------------------------------------------------------- */
+/* ---- neighbours ----------------------------------------------------------------------------- */
 int compare_ends(const struct edge *a, const struct edge *b)
 {
     for (int i = 0; i < 6; i++) {
@@ -233,7 +233,7 @@ void model_free(struct model *m)
     free(m->edge_of);
 }
 
-/* ---- files ------------------------------------------------------------------------------------ */
+/* ---- files ---------------------------------------------------------------------------------- */
 static void add_point(struct model *m, const struct lattice *lattice, const double v[3])
 {
     double l[3];
@@ -284,8 +284,7 @@ static bool same_face(const struct obj *obj, const struct aiMesh *mesh, uint32_t
         const struct aiVector3D *a = corner_of(mesh, face, i);
         const double *b = obj->v[corners[i]];
         double bound = 1e-5 * obj->size;
-        if (fabs(a->x - b[0]) > bound || fabs(a->y - b[1]) > bound ||
-            fabs(a->z - b[2]) > bound) {
+        if (fabs(a->x - b[0]) > bound || fabs(a->y - b[1]) > bound || fabs(a->z - b[2]) > bound) {
             return false;
         }
     }

@@ -44,12 +44,12 @@ struct edge {
 };
 
 struct model {
-    struct vec *points; /* lattice points */
+    struct vec *points;    /* lattice points */
     struct vec *unsnapped; /* the same in lattice units before rounding */
-    uint32_t *corners; /* numbers of points */
+    uint32_t *corners;     /* numbers of points */
     struct polygon *polygons;
-    struct edge *edges;  /* sorted by ends: those of neighbours lie together */
-    uint32_t *edge_of;   /* a corner's place in edges */
+    struct edge *edges; /* sorted by ends: those of neighbours lie together */
+    uint32_t *edge_of;  /* a corner's place in edges */
     size_t point_count;
     size_t corner_count;
     size_t polygon_count;
@@ -121,14 +121,14 @@ struct example {
 };
 
 struct verdict {
-    uint64_t model;  /* pixels where the oracle shows the model */
-    uint64_t same;   /* the same polygon at the centre */
-    uint64_t edge;   /* right by a neighbouring point within one pixel */
-    uint64_t near;   /* right only by the projected lattice step */
-    uint64_t tie;    /* right by depth within the bound, along the view */
-    uint64_t slant;  /* right by depth within the bound, along a polygon's normal alone */
-    uint64_t rim;    /* right by the rounding of outlines that end there */
-    uint64_t strip;  /* right by lying on a plane with what is due, seen edge-on */
+    uint64_t model; /* pixels where the oracle shows the model */
+    uint64_t same;  /* the same polygon at the centre */
+    uint64_t edge;  /* right by a neighbouring point within one pixel */
+    uint64_t near;  /* right only by the projected lattice step */
+    uint64_t tie;   /* right by depth within the bound, along the view */
+    uint64_t slant; /* right by depth within the bound, along a polygon's normal alone */
+    uint64_t rim;   /* right by the rounding of outlines that end there */
+    uint64_t strip; /* right by lying on a plane with what is due, seen edge-on */
     uint64_t wrong;
     uint64_t holes;
     struct example examples[EXAMPLES]; /* the first ones, wrong + holes of them */

@@ -41,7 +41,8 @@ judge() {
     if [ "$status" != 0 ]; then
         mkdir -p "$wrong/${name// /-}"
         cp "$work"/*.ppm "$work/views.json" "$tree" "$wrong/${name// /-}/"
-        grep -A 8 -E '^view.*( [1-9][0-9]* wrong| [1-9][0-9]* holes)' <<<"$said" | grep -v ' 0 wrong, 0 holes'
+        grep -A 8 -E '^view.*( [1-9][0-9]* wrong| [1-9][0-9]* holes)' <<<"$said" |
+            grep -v ' 0 wrong, 0 holes'
     fi
 }
 

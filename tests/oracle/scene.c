@@ -13,7 +13,7 @@
 
 enum { BIN = 4, MARGIN = 4 }; /* pixels; bins reach MARGIN beyond the screen */
 
-/* ---- one polygon ------------------------------------------------------------------------------ */
+/* ---- one polygon ---------------------------------------------------------------------------- */
 static struct vec to_camera(const struct camera *c, struct vec p)
 {
     struct vec d = vec_sub(p, c->eye);
@@ -100,8 +100,9 @@ static void add_shape(struct scene *scene, uint32_t number, struct vec *work, st
     for (uint32_t i = 0; i < p->count; i++) {
         work[i] = to_camera(c, m->points[m->corners[p->first + i]]);
     }
-    struct shape s = { .id = p->id, .slack = p->slack, .polygon = number, .z_min = INFINITY,
-                       .z_max = -INFINITY };
+    struct shape s = {
+        .id = p->id, .slack = p->slack, .polygon = number, .z_min = INFINITY, .z_max = -INFINITY
+    };
     if (!set_plane(&s, work, p->count)) {
         return;
     }
@@ -226,7 +227,7 @@ double shape_slope(const struct scene *scene, const struct shape *s, double x, d
     return fabs(vec_dot(s->normal, scene_ray(scene->camera, x, y)));
 }
 
-/* ---- bins and the index by source polygon ----------------------------------------------------- */
+/* ---- bins and the index by source polygon --------------------------------------------------- */
 static uint32_t bin_of(double v, uint32_t bins)
 {
     double b = floor((v + MARGIN) / BIN);
@@ -310,7 +311,7 @@ const uint32_t *scene_candidates(const struct scene *scene, double x, double y, 
     return scene->bin_items + scene->bin_start[bin];
 }
 
-/* ---- the z-buffer ----------------------------------------------------------------------------- */
+/* ---- the z-buffer --------------------------------------------------------------------------- */
 struct crossing {
     double x;
     int turn;

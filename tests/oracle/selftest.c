@@ -44,18 +44,23 @@ static void add_outline(struct model *m, const double (*p)[3], uint32_t count)
  */
 static void make_model(struct model *m)
 {
-    static const double wall[10][3] = {
-        { -9000, -9000, 0 }, { 9000, -9000, 0 }, { 9000, 9000, 0 }, { -9000, 9000, 0 },
-        { -9000, -9000, 0 }, { -3000, -3000, 0 }, { -3000, 3000, 0 }, { 3000, 3000, 0 },
-        { 3000, -3000, 0 },  { -3000, -3000, 0 } };
-    static const double lower[3][3] = { { -12000, -12000, -4000 }, { 12000, -12000, -4000 },
+    static const double wall[10][3] = { { -9000, -9000, 0 }, { 9000, -9000, 0 },
+                                        { 9000, 9000, 0 },   { -9000, 9000, 0 },
+                                        { -9000, -9000, 0 }, { -3000, -3000, 0 },
+                                        { -3000, 3000, 0 },  { 3000, 3000, 0 },
+                                        { 3000, -3000, 0 },  { -3000, -3000, 0 } };
+    static const double lower[3][3] = { { -12000, -12000, -4000 },
+                                        { 12000, -12000, -4000 },
                                         { 12000, 12000, -4000 } };
-    static const double upper[3][3] = { { -12000, -12000, -4000 }, { 12000, 12000, -4000 },
+    static const double upper[3][3] = { { -12000, -12000, -4000 },
+                                        { 12000, 12000, -4000 },
                                         { -12000, 12000, -4000 } };
-    static const double back[3][3] = { { -8000, -8000, 2000 }, { 0, 8000, 2000 },
+    static const double back[3][3] = { { -8000, -8000, 2000 },
+                                       { 0, 8000, 2000 },
                                        { 8000, -8000, 2000 } };
-    static const double slant[4][3] = { { -2000, -1000, -3000 }, { 2000, -1000, 3000 },
-                                        { 2000, 1000, 3000 }, { -2000, 1000, -3000 } };
+    static const double slant[4][3] = {
+        { -2000, -1000, -3000 }, { 2000, -1000, 3000 }, { 2000, 1000, 3000 }, { -2000, 1000, -3000 }
+    };
     memset(m, 0, sizeof *m);
     add_outline(m, wall, 10);
     add_outline(m, lower, 3);
@@ -67,8 +72,9 @@ static void make_model(struct model *m)
 
 static struct camera make_camera(double x, double y, double z, double turned)
 {
-    struct camera c = { .eye = { x, y, z }, .near_z = 16, .focal = 130, .width = WIDTH,
-                        .height = HEIGHT };
+    struct camera c = {
+        .eye = { x, y, z }, .near_z = 16, .focal = 130, .width = WIDTH, .height = HEIGHT
+    };
     c.axis[0] = (struct vec){ cos(turned), 0, -sin(turned) };
     c.axis[1] = (struct vec){ 0, 1, 0 };
     c.axis[2] = (struct vec){ -sin(turned), 0, -cos(turned) };
@@ -89,8 +95,8 @@ static struct verdict judged(const struct scene *scene, const uint32_t *frame)
     return v;
 }
 
-static struct verdict with_pixel(const struct scene *scene, uint32_t *frame, uint32_t x,
-                                 uint32_t y, uint32_t id)
+static struct verdict with_pixel(const struct scene *scene, uint32_t *frame, uint32_t x, uint32_t y,
+                                 uint32_t id)
 {
     uint32_t kept = frame[y * WIDTH + x];
     frame[y * WIDTH + x] = id;

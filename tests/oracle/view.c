@@ -79,8 +79,8 @@ struct camera *cameras_read(const char *path, size_t *count)
 {
     char *text = file_text(path);
     cJSON *root = cJSON_Parse(text);
-    const cJSON *list = cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "views")
-                                             : root;
+    const cJSON *list =
+        cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "views") : root;
     *count = (size_t)cJSON_GetArraySize(list);
     if (!cJSON_IsArray(list) || *count == 0) {
         stop(path, "no views in this file");
@@ -94,7 +94,7 @@ struct camera *cameras_read(const char *path, size_t *count)
     return cameras;
 }
 
-/* ---- eyes very near the surface --------------------------------------------------------------- */
+/* ---- eyes very near the surface ------------------------------------------------------------- */
 static struct vec along(struct vec from, struct vec direction, double distance)
 {
     return (struct vec){ from.x + direction.x * distance, from.y + direction.y * distance,

@@ -9,7 +9,7 @@
 
 #include "ow_blob.h"
 
-/* ---- what is added ---------------------------------------------------------------------------- */
+/* ---- what is added -------------------------------------------------------------------------- */
 struct builder *builder_new(uint32_t flags)
 {
     struct builder *b = calloc(1, sizeof *b);
@@ -159,7 +159,7 @@ void builder_bound(struct builder *b, uint32_t node)
     n->axis[2] = 127;
 }
 
-/* ---- bytes ------------------------------------------------------------------------------------ */
+/* ---- bytes ---------------------------------------------------------------------------------- */
 struct bytes {
     uint8_t *data;
     size_t size;
@@ -215,7 +215,7 @@ void blob_seal(uint8_t *bytes, uint32_t size)
     set(&out, at, crc_of(crc_of(0, bytes, at), bytes + at + 4, size - at - 4), 4);
 }
 
-/* ---- layout ----------------------------------------------------------------------------------- */
+/* ---- layout --------------------------------------------------------------------------------- */
 struct layout {
     const struct builder *b;
     uint32_t order[BUILDER_NODES]; /* nodes level by level */
@@ -297,8 +297,8 @@ static uint32_t item_word(const struct layout *l, uint32_t item)
         return OW_ITEM_NONE;
     }
     const struct built_item *i = &l->b->items[item];
-    uint32_t value = i->kind == OW_ITEM_NODE ? l->node_at[i->number] / 4
-                                             : l->polygon_at[i->number] / 2;
+    uint32_t value =
+        i->kind == OW_ITEM_NODE ? l->node_at[i->number] / 4 : l->polygon_at[i->number] / 2;
     return i->kind | value << OW_ITEM_TAG_BITS;
 }
 
@@ -443,20 +443,28 @@ uint8_t *builder_finish(const struct builder *b, uint32_t root, uint32_t *size)
     return exact;
 }
 
-/* ---- the sample ------------------------------------------------------------------------------- */
+/* ---- the sample ----------------------------------------------------------------------------- */
 /*
  * A switch on z = 0 with a two-sided square in the plane; in front a bounded
  * sequence of two triangles; behind a second switch with a marked pentagon.
  */
 uint8_t *builder_sample(uint32_t flags, uint32_t *size)
 {
-    static const int square[4][3] = { { -900, -900, 0 }, { 900, -900, 0 }, { 900, 900, 0 },
-                                      { -900, 900, 0 } };
-    static const int five[5][3] = { { -800, -700, -500 }, { 700, -800, -500 }, { 900, 300, -500 },
-                                    { 0, 950, -500 }, { -900, 200, -500 } };
+    static const int square[4][3] = {
+        { -900, -900, 0 }, { 900, -900, 0 }, { 900, 900, 0 }, { -900, 900, 0 }
+    };
+    static const int five[5][3] = { { -800, -700, -500 },
+                                    { 700, -800, -500 },
+                                    { 900, 300, -500 },
+                                    { 0, 950, -500 },
+                                    { -900, 200, -500 } };
     static const int near_one[3][3] = { { -500, -400, 300 }, { 600, -300, 300 }, { 0, 700, 300 } };
-    static const int near_two[3][3] = { { -300, -600, 600 }, { 500, 100, 600 }, { -200, 500, 600 } };
-    static const int far_one[3][3] = { { -900, -900, -800 }, { 900, -900, -900 }, { 0, 900, -850 } };
+    static const int near_two[3][3] = { { -300, -600, 600 },
+                                        { 500, 100, 600 },
+                                        { -200, 500, 600 } };
+    static const int far_one[3][3] = { { -900, -900, -800 },
+                                       { 900, -900, -900 },
+                                       { 0, 900, -850 } };
     struct builder *b = builder_new(flags | OW_TREE_TWO_SIDED);
     uint32_t corners[5];
     uint32_t red = builder_colour(b, 0xC04030), blue = builder_colour(b, 0x3040C0);
@@ -475,7 +483,8 @@ uint8_t *builder_sample(uint32_t flags, uint32_t *size)
     uint32_t root = builder_switch(b, (const int64_t[4]){ 0, 0, 1, 0 });
     builder_add(b, root, OW_ITEM_FACE, middle);
     builder_add(b, root, OW_ITEM_REVERSE, middle);
-    uint32_t front = builder_sequence(b), back = builder_switch(b, (const int64_t[4]){ 0, 0, 1, 500 });
+    uint32_t front = builder_sequence(b),
+             back = builder_switch(b, (const int64_t[4]){ 0, 0, 1, 500 });
     builder_bound(b, front);
     builder_bound(b, back);
     builder_child(b, root, 0, OW_ITEM_NODE, front);

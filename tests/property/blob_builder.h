@@ -87,8 +87,7 @@ void builder_plane(const struct builder *b, uint32_t polygon, int64_t plane[4]);
 void builder_add(struct builder *b, uint32_t node, uint32_t kind, uint32_t number);
 
 /* Sets a switch's child: side 0 front, 1 back. */
-void builder_child(struct builder *b, uint32_t node, uint32_t side, uint32_t kind,
-                   uint32_t number);
+void builder_child(struct builder *b, uint32_t node, uint32_t side, uint32_t kind, uint32_t number);
 
 /* Gives a node bounds that hold no matter what lies in it. */
 void builder_bound(struct builder *b, uint32_t node);

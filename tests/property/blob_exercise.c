@@ -28,14 +28,24 @@ static void *block_of(size_t bytes)
 /* Eyes outside, inside, on a corner of the box, and as far off as can be. */
 static const struct ow_camera cameras[] = {
     { .eye = { 0, 0, 3000 * 256 }, .up = { 0, 1, 0 }, .fov = 1u << 29 },
-    { .eye = { 40 * 256, 77 * 256, 20 * 256 }, .at = { 256 * 900, 0, -256 * 200 },
-      .up = { 0, 256, 30 }, .fov = 1u << 30, .near = 1 },
+    { .eye = { 40 * 256, 77 * 256, 20 * 256 },
+      .at = { 256 * 900, 0, -256 * 200 },
+      .up = { 0, 256, 30 },
+      .fov = 1u << 30,
+      .near = 1 },
     { .eye = { -900 * 256, -900 * 256, 3 }, .up = { 0, 1, 0 }, .fov = 5u << 28, .near = 256 },
-    { .eye = { OW_EYE_MAX, -OW_EYE_MAX, OW_EYE_MAX }, .at = { -OW_EYE_MAX, 0, 0 },
-      .up = { 0, 0, 1 }, .fov = 12000000 },
-    { .eye = { 300, 500 * 256, -800 * 256 }, .up = { 0, 1, 0 }, .projection = OW_PARALLEL,
+    { .eye = { OW_EYE_MAX, -OW_EYE_MAX, OW_EYE_MAX },
+      .at = { -OW_EYE_MAX, 0, 0 },
+      .up = { 0, 0, 1 },
+      .fov = 12000000 },
+    { .eye = { 300, 500 * 256, -800 * 256 },
+      .up = { 0, 1, 0 },
+      .projection = OW_PARALLEL,
       .height = 2500 * 256 },
-    { .eye = { 0, 0, 0 }, .at = { 256, 1, 1 }, .up = { 0, 1, 0 }, .projection = OW_PARALLEL,
+    { .eye = { 0, 0, 0 },
+      .at = { 256, 1, 1 },
+      .up = { 0, 1, 0 },
+      .projection = OW_PARALLEL,
       .height = 1 },
 };
 enum { CAMERAS = sizeof cameras / sizeof *cameras };
@@ -63,7 +73,9 @@ static void draw_bands(const struct ow_tree *tree, const struct ow_view *view,
                        const struct ow_look *look, const struct ow_pixel_format *format,
                        uint32_t cached)
 {
-    struct ow_workspace_config config = { .width = WIDTH, .lines = BAND, .cached_vertices = cached };
+    struct ow_workspace_config config = { .width = WIDTH,
+                                          .lines = BAND,
+                                          .cached_vertices = cached };
     uint32_t bytes = ow_workspace_bytes_needed(tree, &config);
     insist(bytes > 0, "a sane configuration was refused");
     void *memory = block_of(bytes);
@@ -96,7 +108,8 @@ static void use_view(const struct ow_tree *tree, const struct ow_view *view, uin
     for (uint32_t order = 0; order < 2; order++) {
         struct ow_look look = { .order = order ? OW_FRONT_TO_BACK : OW_BACK_TO_FRONT,
                                 .shade = number % 2 ? OW_SHADE_FLAT : OW_SHADE_ID,
-                                .cull = culls[number % 3], .background = 0x204060,
+                                .cull = culls[number % 3],
+                                .background = 0x204060,
                                 .ambient_q8 = 64,
                                 .light = { { 5000, 9000, 12000 }, 256, number % 3 == 0 } };
         draw_bands(tree, view, &look, order ? &ow_format_rgb565 : &ow_format_xrgb8888,

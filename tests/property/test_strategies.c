@@ -117,8 +117,8 @@ static void cross(const double a[3], const double b[3], double out[3])
 }
 
 /* The plane of a source triangle on the lattice, unit normal; false: it has no area. */
-static bool source_plane(const struct model *model, const struct lattice *lattice,
-                         uint32_t number, double normal[3], double *offset)
+static bool source_plane(const struct model *model, const struct lattice *lattice, uint32_t number,
+                         double normal[3], double *offset)
 {
     double at[3][3];
     double u[3];
@@ -144,8 +144,8 @@ static bool source_plane(const struct model *model, const struct lattice *lattic
 }
 
 static void read_face(const struct ow_tree *tree, const struct ow_face *met,
-                      const struct model *model, const struct lattice *lattice,
-                      const double eye[3], struct face *face)
+                      const struct model *model, const struct lattice *lattice, const double eye[3],
+                      struct face *face)
 {
     struct models_record record;
     models_read_record(tree, met->at, &record);

@@ -38,7 +38,7 @@ static int random_in(int low, int high)
     return low + (int)random_below((uint32_t)(high - low + 1));
 }
 
-/* ---- scenes ----------------------------------------------------------------------------------- */
+/* ---- scenes --------------------------------------------------------------------------------- */
 struct triangle {
     int v[3][3];
     int64_t plane[4];
@@ -115,8 +115,8 @@ static uint32_t take_sequence(struct scene *s, uint32_t *list, uint32_t *count, 
         for (uint32_t i = 0; i < *count && !found; i++) {
             bool hides = false;
             for (uint32_t k = 0; k < *count; k++) {
-                hides = hides || (k != i && can_obstruct(&s->triangles[list[i]],
-                                                         &s->triangles[list[k]]));
+                hides = hides ||
+                        (k != i && can_obstruct(&s->triangles[list[i]], &s->triangles[list[k]]));
             }
             if (!hides) {
                 taken[n++] = list[i];
@@ -256,7 +256,7 @@ static uint8_t *make_scene(struct scene *s, uint32_t seed, uint32_t *size)
     return blob;
 }
 
-/* ---- brute force ------------------------------------------------------------------------------ */
+/* ---- brute force ---------------------------------------------------------------------------- */
 struct eye {
     bool parallel;
     double p[3]; /* the eye's point, or the direction towards it */
@@ -358,12 +358,16 @@ static bool hides(const struct triangle *a, const struct triangle *b, const stru
     return count > 2 && cut(polygon, count, n, towards > 0 ? -d : d, 0.01) > 2;
 }
 
-/* ---- the walk --------------------------------------------------------------------------------- */
+/* ---- the walk ------------------------------------------------------------------------------- */
 static struct ow_view random_view(struct eye *eye, const struct scene *s, bool parallel)
 {
-    struct ow_camera camera = { .up = { 3, 250, 7 }, .projection = OW_PERSPECTIVE,
-                                .fov = 1u << 29, .height = 4000 * 256, .near = 256,
-                                .width_pixels = 64, .height_pixels = 48 };
+    struct ow_camera camera = { .up = { 3, 250, 7 },
+                                .projection = OW_PERSPECTIVE,
+                                .fov = 1u << 29,
+                                .height = 4000 * 256,
+                                .near = 256,
+                                .width_pixels = 64,
+                                .height_pixels = 48 };
     camera.projection = parallel ? OW_PARALLEL : OW_PERSPECTIVE;
     int reach = (int[]){ 800, 3000, 200000 }[random_below(3)] * 256;
     const struct triangle *t = &s->triangles[random_below(s->count)];
@@ -538,11 +542,52 @@ static void a_wrong_order_would_be_noticed(void **state)
     free(s.b);
 }
 
+/* Of faces in one plane the later wins, from either side and whichever way the walk goes. */
+static void later_coplanar_faces_win(void **state)
+{
+    (void)state;
+    static const int shape[3][3] = { { -500, -500, 0 }, { 500, -500, 0 }, { 0, 500, 0 } };
+    struct builder *b = builder_new(OW_TREE_TWO_SIDED);
+    (void)builder_colour(b, 0xFFFFFF);
+    uint32_t root = builder_switch(b, (const int64_t[4]){ 0, 0, 1, 0 }), size;
+    for (uint32_t kind = OW_ITEM_FACE; kind <= OW_ITEM_REVERSE; kind++) {
+        for (uint32_t i = 0; i < 3; i++) {
+            if (kind == OW_ITEM_FACE) {
+                (void)builder_triangle(b, shape, 0, i + 1);
+            }
+            builder_add(b, root, kind, i);
+        }
+    }
+    uint8_t *blob = builder_finish(b, root, &size);
+    struct ow_tree tree;
+    assert_int_equal(ow_tree_open(&tree, blob, size), OW_OK);
+    for (int side = -1; side <= 1; side += 2) {
+        struct ow_camera camera = { .eye = { 0, 0, side * 900 * 256 },
+                                    .up = { 0, 256, 0 },
+                                    .fov = 1u << 29,
+                                    .width_pixels = 64,
+                                    .height_pixels = 48 };
+        struct ow_view view;
+        assert_int_equal(ow_view_make(&view, &camera), OW_OK);
+        struct met far_first[6], near_first[6];
+        assert_int_equal(walk_all(&tree, &view, OW_FARTHEST_FIRST, far_first, 6), 3);
+        assert_int_equal(walk_all(&tree, &view, OW_NEAREST_FIRST, near_first, 6), 3);
+        for (uint32_t i = 0; i < 3; i++) {
+            assert_int_equal(far_first[i].reverse, side < 0);
+            assert_int_equal(near_first[i].at, far_first[2 - i].at);
+            assert_true(i == 0 || far_first[i].at > far_first[i - 1].at);
+        }
+    }
+    free(blob);
+    free(b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hidden_before_hiding_in_perspective),
         cmocka_unit_test(hidden_before_hiding_in_parallel_projection),
+        cmocka_unit_test(later_coplanar_faces_win),
         cmocka_unit_test(a_wrong_order_would_be_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

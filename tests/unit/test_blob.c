@@ -54,7 +54,7 @@ static void set32(uint8_t *bytes, uint32_t at, uint32_t value)
     }
 }
 
-/* ---- what must open --------------------------------------------------------------------------- */
+/* ---- what must open ------------------------------------------------------------------------- */
 static void samples_open(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void deep_trees_walk(void **state)
     free(b);
 }
 
-/* ---- what a wire or a worn flash does --------------------------------------------------------- */
+/* ---- what a wire or a worn flash does ------------------------------------------------------- */
 static void every_truncation_is_refused(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void every_wrong_byte_is_refused(void **state)
     free(blob);
 }
 
-/* ---- what a liar does ------------------------------------------------------------------------- */
+/* ---- what a liar does ----------------------------------------------------------------------- */
 /* Changes one 32-bit word of the sample, seals it, and expects this status. */
 static void expect_word(uint32_t at, uint32_t value, enum ow_status expected)
 {
@@ -238,7 +238,7 @@ static void wrong_sections_are_refused(void **state)
         uint8_t *blob = builder_sample(OW_TREE_IDS, &size);
         uint32_t old = get32(blob, at);
         free(blob);
-        const uint32_t values[] = { 0,       4,          old - 4,    old + 4,   old + 1,
+        const uint32_t values[] = { 0,       4,          old - 4,    old + 4,    old + 1,
                                     old - 2, 0x7FFFFFFC, 0x80000000, 0xFFFFFFFC, size + 4 };
         for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
             expect_word(at, values[k], OW_CORRUPT);
@@ -257,14 +257,14 @@ static void wrong_children_are_refused(void **state)
     uint32_t front = get32(blob, ROOT_FRONT), back = get32(blob, ROOT_BACK);
     free(blob);
     assert_int_equal(front & 3, OW_ITEM_NODE);
-    expect_word(ROOT_FRONT, OW_ITEM_NODE, OW_CORRUPT);           /* the root itself: a cycle */
-    expect_word(ROOT_FRONT, back, OW_CORRUPT);                   /* one child on both sides */
-    expect_word(ROOT_BACK, front, OW_CORRUPT);                   /* the same, the other way */
-    expect_word(ROOT_BACK, OW_ITEM_NONE, OW_CORRUPT);            /* a node without a parent */
-    expect_word(ROOT_FRONT, front + 4, OW_CORRUPT);              /* the middle of a node */
+    expect_word(ROOT_FRONT, OW_ITEM_NODE, OW_CORRUPT); /* the root itself: a cycle */
+    expect_word(ROOT_FRONT, back, OW_CORRUPT);         /* one child on both sides */
+    expect_word(ROOT_BACK, front, OW_CORRUPT);         /* the same, the other way */
+    expect_word(ROOT_BACK, OW_ITEM_NONE, OW_CORRUPT);  /* a node without a parent */
+    expect_word(ROOT_FRONT, front + 4, OW_CORRUPT);    /* the middle of a node */
     expect_word(ROOT_FRONT, 0xFFFFFFFC | OW_ITEM_NODE, OW_CORRUPT);
-    expect_word(ROOT_FRONT, OW_ITEM_INSTANCE, OW_CORRUPT);       /* not in version 1 */
-    expect_word(ROOT_FACE, front, OW_CORRUPT);                   /* a node among coplanar faces */
+    expect_word(ROOT_FRONT, OW_ITEM_INSTANCE, OW_CORRUPT); /* not in version 1 */
+    expect_word(ROOT_FACE, front, OW_CORRUPT);             /* a node among coplanar faces */
     expect_word(ROOT_FACE, 0xFFFFFFFC | OW_ITEM_FACE, OW_CORRUPT);
     expect_word(ROOT_FACE, OW_ITEM_NONE, OW_CORRUPT);
     expect_word(ROOT, 2 | 2u << OW_NODE_COUNT_SHIFT, OW_CORRUPT); /* an unknown kind */
@@ -280,12 +280,12 @@ static void wrong_polygons_are_refused(void **state)
     uint8_t *blob = builder_sample(OW_TREE_IDS, &size);
     uint32_t at = get32(blob, HEAD(polygons_at)), first = get32(blob, at);
     free(blob);
-    expect_word(at, (first & 0xFFFFFF00) | 2, OW_CORRUPT);   /* two corners */
-    expect_word(at, first & 0xFFFFFF00, OW_CORRUPT);         /* none */
-    expect_word(at, first | 0xFF, OW_CORRUPT);               /* more than the section holds */
-    expect_word(at + 4, 0x00010FFF, OW_CORRUPT);             /* a colour that is not there */
-    expect_word(at + 4, 0x00018000, OW_CORRUPT);             /* an unknown flag */
-    expect_word(at + 8, 0xFFFF0000, OW_CORRUPT);             /* a vertex that is not there */
+    expect_word(at, (first & 0xFFFFFF00) | 2, OW_CORRUPT); /* two corners */
+    expect_word(at, first & 0xFFFFFF00, OW_CORRUPT);       /* none */
+    expect_word(at, first | 0xFF, OW_CORRUPT);             /* more than the section holds */
+    expect_word(at + 4, 0x00010FFF, OW_CORRUPT);           /* a colour that is not there */
+    expect_word(at + 4, 0x00018000, OW_CORRUPT);           /* an unknown flag */
+    expect_word(at + 8, 0xFFFF0000, OW_CORRUPT);           /* a vertex that is not there */
 }
 
 static void backs_in_a_one_sided_tree_are_refused(void **state)
@@ -312,7 +312,7 @@ static void bytes_called_zero_are_checked(void **state)
     free(blob);
 }
 
-/* ---- liars by the thousand -------------------------------------------------------------------- */
+/* ---- liars by the thousand ------------------------------------------------------------------ */
 struct outcomes {
     uint32_t opened;
     uint32_t refused;
@@ -335,8 +335,9 @@ static void every_word_changed_is_refused_or_harmless(void **state)
         uint8_t *blob = builder_sample(flag_sets[f], &size);
         for (uint32_t at = 0; at + 4 <= size; at += 2) {
             uint32_t old = get32(blob, at);
-            const uint32_t values[] = { 0, 1, 3, 0xFF, 0xFFFF, 0x7FFF7FFF, 0x80008000, 0xFFFFFFFF,
-                                        old + 1, old - 1, old + 4, old - 4, old << 1, old ^ 2 };
+            const uint32_t values[] = { 0,          1,          3,          0xFF,    0xFFFF,
+                                        0x7FFF7FFF, 0x80008000, 0xFFFFFFFF, old + 1, old - 1,
+                                        old + 4,    old - 4,    old << 1,   old ^ 2 };
             for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
                 uint8_t *changed = copy_of(blob, size);
                 set32(changed, at, values[k]);
@@ -367,8 +368,9 @@ static void random_changes_are_refused_or_harmless(void **state)
         uint32_t from = i % 3 == 0 ? 0 : HEAD(origin_bits);
         for (uint32_t n = 1 + random_below(&random, 3); n > 0; n--) {
             uint32_t at = from + random_below(&random, size - from);
-            blob[at] = (uint8_t)(random_below(&random, 2) ? random_below(&random, 256)
-                                                          : blob[at] ^ 1u << random_below(&random, 8));
+            blob[at] =
+                (uint8_t)(random_below(&random, 2) ? random_below(&random, 256)
+                                                   : blob[at] ^ 1u << random_below(&random, 8));
         }
         try_sealed(blob, size, &outcomes);
         free(blob);

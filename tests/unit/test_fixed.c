@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: 0BSD */
-/* Numbers: reciprocal, root, quotient, scale and sine against double and against their own definition. */
+/* Numbers: reciprocal, root, quotient, scale and sine against double and their definition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -29,19 +29,21 @@ struct field {
     size_t size;
 };
 
-#define FIELD(name, type)                                                                          \
-    { #name, offsetof(struct ow_disk_header, name), type,                                         \
-      sizeof(((struct ow_disk_header *)0)->name) }
+#define FIELD(name, type)                                   \
+    {                                                       \
+#name, offsetof(struct ow_disk_header, name), type, \
+            sizeof(((struct ow_disk_header *)0)->name)      \
+    }
 
 static const struct field fields[] = {
-    FIELD(magic, "u32"),          FIELD(version, "u16"),        FIELD(header_bytes, "u16"),
-    FIELD(blob_bytes, "u32"),     FIELD(crc32, "u32"),          FIELD(flags, "u32"),
-    FIELD(polygon_count, "u32"),  FIELD(face_count, "u32"),     FIELD(vertex_count, "u32"),
-    FIELD(node_count, "u32"),     FIELD(switch_count, "u32"),   FIELD(depth, "u32"),
-    FIELD(max_corners, "u32"),    FIELD(colour_count, "u32"),   FIELD(instance_count, "u32"),
-    FIELD(nodes_at, "u32"),       FIELD(polygons_at, "u32"),    FIELD(vertices_at, "u32"),
-    FIELD(normals_at, "u32"),     FIELD(colours_at, "u32"),     FIELD(instances_at, "u32"),
-    FIELD(box_min, "i16[3]"),     FIELD(box_max, "i16[3]"),     FIELD(tolerance_q8, "u32"),
+    FIELD(magic, "u32"),          FIELD(version, "u16"),      FIELD(header_bytes, "u16"),
+    FIELD(blob_bytes, "u32"),     FIELD(crc32, "u32"),        FIELD(flags, "u32"),
+    FIELD(polygon_count, "u32"),  FIELD(face_count, "u32"),   FIELD(vertex_count, "u32"),
+    FIELD(node_count, "u32"),     FIELD(switch_count, "u32"), FIELD(depth, "u32"),
+    FIELD(max_corners, "u32"),    FIELD(colour_count, "u32"), FIELD(instance_count, "u32"),
+    FIELD(nodes_at, "u32"),       FIELD(polygons_at, "u32"),  FIELD(vertices_at, "u32"),
+    FIELD(normals_at, "u32"),     FIELD(colours_at, "u32"),   FIELD(instances_at, "u32"),
+    FIELD(box_min, "i16[3]"),     FIELD(box_max, "i16[3]"),   FIELD(tolerance_q8, "u32"),
     FIELD(origin_bits, "u64[3]"), FIELD(step_bits, "u64"),
 };
 enum { FIELDS = sizeof fields / sizeof *fields };
@@ -52,9 +54,12 @@ struct constant {
 };
 
 static const struct constant flags[] = {
-    { OW_TREE_TWO_SIDED, "two-sided" }, { OW_TREE_SWITCH_ONLY, "switch-only" },
-    { OW_TREE_CLOSED, "closed" },       { OW_TREE_INDEX32, "index32" },
-    { OW_TREE_IDS, "ids" },             { OW_TREE_NORMALS, "normals" },
+    { OW_TREE_TWO_SIDED, "two-sided" },
+    { OW_TREE_SWITCH_ONLY, "switch-only" },
+    { OW_TREE_CLOSED, "closed" },
+    { OW_TREE_INDEX32, "index32" },
+    { OW_TREE_IDS, "ids" },
+    { OW_TREE_NORMALS, "normals" },
 };
 static const struct constant tags[] = {
     { OW_ITEM_FACE, "face" },
@@ -63,7 +68,7 @@ static const struct constant tags[] = {
     { OW_ITEM_INSTANCE, "instance" },
 };
 
-/* ---- the page's tables ------------------------------------------------------------------------ */
+/* ---- the page's tables ---------------------------------------------------------------------- */
 /* The first three cells of a table row. */
 struct row {
     char cell[3][64];
@@ -159,7 +164,7 @@ static void flags_and_tags_are_as_the_page_says(void **state)
     assert_int_equal(all, OW_TREE_FLAGS_KNOWN);
 }
 
-/* ---- the page's example ----------------------------------------------------------------------- */
+/* ---- the page's example --------------------------------------------------------------------- */
 /* Lines of four hexadecimal digits and bytes; the addresses must follow one another. */
 static uint32_t read_example(uint8_t *bytes, uint32_t room)
 {

@@ -153,6 +153,10 @@ static void test_bad(void **state)
         { "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", 4, "vertex" },
         { "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 two 3\n", 4, "not a vertex number" },
         { "v 0 0 0 \\\n\nv 1 0 0\nv 0 1 0\n\nf 1 2 \\\n4\n", 6, "vertex 4" },
+        { "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//2\n", 5, "normal 2" },
+        { "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/-2\n", 5, "texture coordinate -2" },
+        { "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1/ 2/1/x 3/1/1\n", 5, "not a normal number" },
+        { "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 9\nf 1 2 3\n", 4, "vertex 9" },
         { "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\np 1\n", 0, "no polygons" },
         { "v 0 0 0\nv 1 0 0\nv 0 1 0\n", 0, "no polygons" },
     };

@@ -34,7 +34,8 @@ static struct ow_view random_view(void)
     struct ow_camera camera;
     do {
         int32_t reach = 1 << random_in(16, 27);
-        camera = (struct ow_camera){ .up = { 3, 250, -7 }, .fov = (ow_turn)random_in(2 << 26, 2 << 28),
+        camera = (struct ow_camera){ .up = { 3, 250, -7 },
+                                     .fov = (ow_turn)random_in(2 << 26, 2 << 28),
                                      .near = random_in(0, 2) ? 0 : random_in(1, 4000000),
                                      .height = random_in(1 << 12, 1 << 26),
                                      .width_pixels = (uint16_t)random_in(1, OW_SCREEN_MAX),
@@ -117,7 +118,9 @@ static void screen_points_are_rounded_to_the_nearest(void **state)
             struct ow_outline_point s = ow_to_screen(&view, p);
             double x = along(view.right, &view, points.v[i]) / unit;
             double y = along(view.up, &view, points.v[i]) / unit;
-            double z = view.projection == OW_PERSPECTIVE ? along(view.forward, &view, points.v[i]) / unit : 1;
+            double z = view.projection == OW_PERSPECTIVE
+                           ? along(view.forward, &view, points.v[i]) / unit
+                           : 1;
             double slope = view.projection == OW_PERSPECTIVE ? fmax(fabs(x), fabs(y)) / z : 0;
             double bound = 0.5 + 1.1 * (1 + slope) * scale / z + ldexp(OW_GUARD, -26);
             assert_true(fabs(s.x - (OW_SUB / 2 * view.width + x * scale / z)) <= bound);
@@ -129,7 +132,7 @@ static void screen_points_are_rounded_to_the_nearest(void **state)
     assert_true(inside > 10000);
 }
 
-/* ---- clipping --------------------------------------------------------------------------------- */
+/* ---- clipping ------------------------------------------------------------------------------- */
 struct outline {
     struct ow_camera_point buffers[2][ROOM];
     const struct ow_camera_point *points;
@@ -229,8 +232,8 @@ static void neighbours_get_the_same_vertices(void **state)
             assert_true(contains(&other, one.points[i]));
             assert_true(contains(&one, other.points[i]));
         }
-        cut += one.count > 0 && !(contains(&one, p[0]) && contains(&one, p[1]) &&
-                                  contains(&one, p[2]));
+        cut += one.count > 0 &&
+               !(contains(&one, p[0]) && contains(&one, p[1]) && contains(&one, p[2]));
     }
     assert_true(cut > 1000);
 }
@@ -254,7 +257,8 @@ static void new_vertices_lie_on_their_edge(void **state)
             double t = ((double)p[k].z - view.near_z) / ((double)p[k].z - p[2].z);
             double x = p[k].x + t * ((double)p[2].x - p[k].x);
             double y = p[k].y + t * ((double)p[2].y - p[k].y);
-            struct ow_camera_point due = { .x = (int32_t)lround(x), .y = (int32_t)lround(y),
+            struct ow_camera_point due = { .x = (int32_t)lround(x),
+                                           .y = (int32_t)lround(y),
                                            .z = view.near_z };
             bool found = !ow_is_inside(&view, p[k]) || !ow_is_inside(&view, due);
             for (uint32_t i = 0; i < out.count && !found; i++) {

@@ -31,7 +31,7 @@ static int random_in(int low, int high)
     return low + (int)random_below((uint32_t)(high - low + 1));
 }
 
-/* ---- what the core does ----------------------------------------------------------------------- */
+/* ---- what the core does --------------------------------------------------------------------- */
 struct canvas {
     struct ow_span_sink sink; /* first: found from its sink */
     struct ow_window window;
@@ -86,7 +86,7 @@ static void clear(struct canvas *canvas)
     canvas->window = (struct ow_window){ 0, HEIGHT, WIDTH };
 }
 
-/* ---- what is right ---------------------------------------------------------------------------- */
+/* ---- what is right -------------------------------------------------------------------------- */
 /* Winding at a pixel's centre, counter-clockwise positive on a screen whose y goes down. */
 static int winding_at(const struct ow_outline_point *points, uint32_t count, int32_t column,
                       int32_t line)
@@ -102,8 +102,7 @@ static int winding_at(const struct ow_outline_point *points, uint32_t count, int
             b = swap;
         }
         /* The edge lies left of the centre or on it. */
-        if ((down || up) &&
-            (int64_t)(b.x - a.x) * (y - a.y) <= (x - a.x) * (int64_t)(b.y - a.y)) {
+        if ((down || up) && (int64_t)(b.x - a.x) * (y - a.y) <= (x - a.x) * (int64_t)(b.y - a.y)) {
             winding += down ? 1 : -1;
         }
     }
@@ -120,8 +119,7 @@ static void check_outline(const struct ow_outline_point *points, uint32_t count)
             canvas.window.end_line = random_in(canvas.window.first_line + 1, HEIGHT);
             canvas.window.width = random_in(1, WIDTH);
         }
-        scan(&canvas, points, count, rule ? OW_WINDING_ANY : OW_WINDING_POSITIVE,
-             random_below(5));
+        scan(&canvas, points, count, rule ? OW_WINDING_ANY : OW_WINDING_POSITIVE, random_below(5));
         for (int line = 0; line < HEIGHT; line++) {
             for (int x = 0; x < WIDTH; x++) {
                 int winding = winding_at(points, count, x, line);
@@ -154,7 +152,7 @@ static int random_reach(void)
     return reaches[random_below(7)];
 }
 
-/* ---- tests ------------------------------------------------------------------------------------ */
+/* ---- tests ---------------------------------------------------------------------------------- */
 static void triangles_cover_their_windings(void **state)
 {
     (void)state;
@@ -194,12 +192,14 @@ static void monotone_outlines_cover_their_windings(void **state)
         for (uint32_t k = 0; k < half; k++) {
             y += random_in(0, 2 * reach / (int)half);
             y = y > OW_SUB / 2 * HEIGHT + reach ? OW_SUB / 2 * HEIGHT + reach : y;
-            p[count++] = (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
+            p[count++] =
+                (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
         }
         for (uint32_t k = 0; k < half; k++) {
             y -= random_in(0, 2 * reach / (int)half);
             y = y < OW_SUB / 2 * HEIGHT - reach ? OW_SUB / 2 * HEIGHT - reach : y;
-            p[count++] = (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
+            p[count++] =
+                (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
         }
         check_outline(p, count);
     }
@@ -209,9 +209,10 @@ static void monotone_outlines_cover_their_windings(void **state)
 static void holes_stay_empty(void **state)
 {
     (void)state;
-    static const struct ow_outline_point p[] = {
-        { 1600, 1600 }, { 1600, 9600 }, { 11200, 9600 }, { 11200, 1600 }, { 1600, 1600 },
-        { 4800, 4800 }, { 8000, 4800 }, { 8000, 7200 }, { 4800, 7200 }, { 4800, 4800 } };
+    static const struct ow_outline_point p[] = { { 1600, 1600 },  { 1600, 9600 }, { 11200, 9600 },
+                                                 { 11200, 1600 }, { 1600, 1600 }, { 4800, 4800 },
+                                                 { 8000, 4800 },  { 8000, 7200 }, { 4800, 7200 },
+                                                 { 4800, 4800 } };
     static struct canvas canvas;
     clear(&canvas);
     scan(&canvas, p, 10, OW_WINDING_POSITIVE, 0);

@@ -26,9 +26,12 @@ static int32_t random_in(int32_t low, int32_t high)
 /* A valid perspective camera. */
 static struct ow_camera plain(void)
 {
-    return (struct ow_camera){ .eye = { 0, 0, 50000 * 256 }, .up = { 0, 256, 0 },
-                               .projection = OW_PERSPECTIVE, .fov = 1u << 29,
-                               .width_pixels = 320, .height_pixels = 240 };
+    return (struct ow_camera){ .eye = { 0, 0, 50000 * 256 },
+                               .up = { 0, 256, 0 },
+                               .projection = OW_PERSPECTIVE,
+                               .fov = 1u << 29,
+                               .width_pixels = 320,
+                               .height_pixels = 240 };
 }
 
 /* Eyes from a fraction of a lattice unit to the limit away, any up that is not parallel. */
@@ -214,9 +217,9 @@ static void wrong_cameras_are_refused(void **state)
     (void)state;
     struct ow_camera camera = plain();
     assert_int_equal(make(&camera), OW_OK);
-#define REFUSED(change)                                                                            \
-    camera = plain();                                                                              \
-    change;                                                                                        \
+#define REFUSED(change) \
+    camera = plain();   \
+    change;             \
     assert_int_equal(make(&camera), OW_ARGUMENT)
     REFUSED(memcpy(camera.at, camera.eye, sizeof camera.at));
     REFUSED(camera.up[1] = 0);
@@ -232,8 +235,8 @@ static void wrong_cameras_are_refused(void **state)
     REFUSED(camera.width_pixels = OW_SCREEN_MAX + 1);
     REFUSED(camera.height_pixels = OW_SCREEN_MAX + 1);
     REFUSED(camera.fov = 0);
-    REFUSED(camera.fov = 11000000);     /* below 1 degree */
-    REFUSED(camera.fov = 2040109466);   /* above 171 degrees */
+    REFUSED(camera.fov = 11000000);   /* below 1 degree */
+    REFUSED(camera.fov = 2040109466); /* above 171 degrees */
     REFUSED(camera.fov = 4294967295u);
     REFUSED(camera.near = -1);
     REFUSED(camera.projection = OW_PARALLEL; camera.height = 0);

@@ -31,6 +31,7 @@ struct part {
     int16_t high[3];
     bool closed;    /* each edge has two polygons */
     bool orientable;
+    bool mixed; /* its polygons' windings disagree */
 };
 
 struct checker {
@@ -183,6 +184,7 @@ static void add_polygon_to_part(struct checker *c, uint32_t number)
     const int16_t *a = mesh->points[corners[0]];
     wide volume = (wide)area[0] * a[0] + (wide)area[1] * a[1] + (wide)area[2] * a[2];
     part->volume += c->turned[number] ? -volume : volume;
+    part->mixed = part->mixed || c->turned[number];
     for (uint32_t i = 0; i < polygon->count; i++) {
         for (int k = 0; k < 3; k++) {
             int16_t at = mesh->points[corners[i]][k];
@@ -198,7 +200,7 @@ static void measure_parts(struct checker *c)
     c->turned = xalloc_zero(c->mesh->polygon_count, sizeof *c->turned);
     for (uint32_t i = 0; i < c->check->parts; i++) {
         c->parts[i] = (struct part){ 0, { 32767, 32767, 32767 }, { -32767, -32767, -32767 },
-                                     true, true };
+                                     true, true, false };
     }
     compare_windings(c);
     for (uint32_t i = 0; i < c->mesh->polygon_count; i++) {
@@ -291,7 +293,8 @@ static void judge_parts(struct checker *c, bool repair)
             continue;
         }
         agree[i] = true;
-        if (part->volume < 0) {
+        over[i] = part->volume < 0;
+        if (part->volume < 0 && !part->mixed) {
             bool cavity = is_in_another(c, i);
             over[i] = !cavity;
             c->check->cavities += cavity;

@@ -252,10 +252,10 @@ static void drop_repeated(struct mesh *mesh)
     uint32_t count = 0;
     for (uint32_t i = 0; i < mesh->polygon_count; i++) {
         const struct mesh_polygon *polygon = &mesh->polygons[i];
-        const uint32_t *corners = mesh->corners + polygon->first;
         if (polygon->count == 0) {
             continue;
         }
+        const uint32_t *corners = mesh->corners + polygon->first;
         uint32_t start = least_rotation(corners, polygon->count);
         uint64_t hash = polygon->count;
         for (uint32_t k = 0; k < polygon->count; k++) {

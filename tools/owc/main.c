@@ -320,7 +320,7 @@ int main(int argc, char **argv)
                                .select = BSP_KEDEM,
                                .sides = SIDES_AUTO,
                                .candidates = 5,
-                               .conflict_weight = 1,
+                               .conflict_weight = 16,
                                .crease = 40,
                                .seed = 1 };
     fail_set_program("owc");

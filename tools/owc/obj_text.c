@@ -83,50 +83,82 @@ static bool check_vertex(const char *text, long line, struct problem *problem)
     return true;
 }
 
-/* before: vertices above this line; all: vertices in the file. */
-static bool check_corners(const char *text, long line, int64_t before, int64_t all,
-                          struct problem *problem)
+/* How many vertices, texture coordinates and normals there are, in the order of a/b/c. */
+struct counts {
+    int64_t of[3];
+};
+
+static const char *const count_names[] = { "vertex", "texture coordinate", "normal" };
+
+/* Adds what a line that begins with this word declares. */
+static void count_line(struct counts *counts, const char *word)
 {
-    for (;;) {
-        text = next_word(text);
-        if (at_end(text)) {
-            return true;
-        }
-        char *end;
-        long long number = strtoll(text, &end, 10);
-        if (end == text) {
-            return problem_set(problem, line, "a corner of a face is not a vertex number");
-        }
-        if (number == 0 || number > all || number < -before) {
-            return problem_set(problem, line,
-                               "a face refers to vertex %lld, but the file has %lld vertices",
-                               number, (long long)all);
-        }
-        text = end + strcspn(end, " \t\r\n");
+    int kind = word[0] != 'v'      ? -1
+               : is_blank(word[1]) ? 0
+               : word[1] == 't'    ? 1
+               : word[1] == 'n'    ? 2
+                                   : -1;
+    if (kind == 0 || (kind > 0 && is_blank(word[2]))) {
+        counts->of[kind]++;
     }
+}
+
+/* One corner a, a/b, a//c or a/b/c; *text moves behind it. */
+static bool check_corner(const char **text, long line, const struct counts *before,
+                         const struct counts *all, struct problem *problem)
+{
+    for (int kind = 0; kind < 3; kind++) {
+        char *end;
+        bool absent = kind > 0 && strchr("/ \t\r\n", **text) != NULL; /* also at the text's end */
+        long long number = absent ? 0 : strtoll(*text, &end, 10);
+        if (!absent && end == *text) {
+            return problem_set(problem, line, "a corner of a face is not a %s number",
+                               count_names[kind]);
+        }
+        if (!absent && (number == 0 || number > all->of[kind] || number < -before->of[kind])) {
+            return problem_set(problem, line, "a face refers to %s %lld, but the file has %lld",
+                               count_names[kind], number, (long long)all->of[kind]);
+        }
+        *text = absent ? *text : end;
+        if (**text != '/') {
+            break;
+        }
+        ++*text;
+    }
+    *text += strcspn(*text, " \t\r\n");
+    return true;
+}
+
+/* A face, line or point: before: what stands above it; all: what there is in the file. */
+static bool check_corners(const char *text, long line, const struct counts *before,
+                          const struct counts *all, struct problem *problem)
+{
+    for (text = next_word(text); !at_end(text); text = next_word(text)) {
+        if (!check_corner(&text, line, before, all, problem)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 bool obj_check(const char *text, size_t size, struct problem *problem)
 {
-    int64_t all = 0;
+    struct counts all = { { 0, 0, 0 } };
+    struct counts before = { { 0, 0, 0 } };
     long line = 1;
     for (size_t at = 0; at < size; at = next_line(text, size, at, &line)) {
-        size_t word = skip_blanks(text, at);
-        if (text[word] == 'v' && is_blank(text[word + 1])) {
-            all++;
-            if (!check_vertex(text + word + 1, line, problem)) {
-                return false;
-            }
+        const char *word = text + skip_blanks(text, at);
+        count_line(&all, word);
+        if (word[0] == 'v' && is_blank(word[1]) && !check_vertex(word + 1, line, problem)) {
+            return false;
         }
     }
-    int64_t before = 0;
     line = 1;
     for (size_t at = 0; at < size; at = next_line(text, size, at, &line)) {
-        size_t word = skip_blanks(text, at);
-        bool follows = text[word] != '\0' && is_blank(text[word + 1]);
-        before += text[word] == 'v' && follows;
-        if (text[word] == 'f' && follows &&
-            !check_corners(text + word + 1, line, before, all, problem)) {
+        const char *word = text + skip_blanks(text, at);
+        count_line(&before, word);
+        if (word[0] != '\0' && strchr("flp", word[0]) != NULL && is_blank(word[1]) &&
+            !check_corners(word + 1, line, &before, &all, problem)) {
             return false;
         }
     }

@@ -115,7 +115,8 @@ void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
     shader->caps = view->cuts && look->caps;
     shader->cap = look->cap;
     for (int i = 0; i < 3 && view->cuts; i++) { /* the cap looks at what was taken away */
-        shader->cap_normal[i] = (int8_t) - (((int64_t)view->cut_axis[i] * 127 + (1 << 29)) >> 30);
+        int64_t kept = ((int64_t)view->cut_axis[i] * 127 + (1 << 29)) >> 30;
+        shader->cap_normal[i] = (int8_t)-kept;
     }
 }
 

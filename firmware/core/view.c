@@ -187,7 +187,7 @@ enum ow_status ow_view_cut(struct ow_view *view, const int32_t normal[3], ow_q8 
         return OW_ARGUMENT;
     }
     const ow_q30 *axes[3] = { view->right, view->up, view->forward };
-    int64_t ahead = -((int64_t)distance << 30); /* normal.eye - distance, 38 fraction bits */
+    int64_t ahead = -((int64_t)distance * (1 << 30)); /* normal.eye - distance, 38 fraction bits */
     for (int a = 0; a < 3; a++) {
         int64_t sum = 0;
         for (int i = 0; i < 3; i++) {

@@ -562,7 +562,7 @@ static void later_coplanar_faces_win(void **state)
     struct ow_tree tree;
     assert_int_equal(ow_tree_open(&tree, blob, size), OW_OK);
     for (int side = -1; side <= 1; side += 2) {
-        struct ow_camera camera = { .eye = { 0, 0, side * 900 * 256 },
+        struct ow_camera camera = { .eye = { 0, 0, side * 20000 * 256 },
                                     .up = { 0, 256, 0 },
                                     .fov = 1u << 29,
                                     .width_pixels = 64,

@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "sim/sim_clock.h"
 
@@ -23,12 +24,28 @@ void bench_probe(void *context, enum ow_probe point)
     }
 }
 
+/* The yardstick: setting as many bytes as a frame has, at the same moment on the same machine. */
+static double time_memset(struct bench *bench)
+{
+    if (bench->yard == NULL) {
+        bench->yard = malloc(bench->yard_bytes);
+    }
+    if (bench->yard == NULL) {
+        return 0;
+    }
+    uint64_t begun_ns = sim_host_ns();
+    memset(bench->yard, (int)bench->passes, bench->yard_bytes);
+    *(volatile uint8_t *)bench->yard; /* nobody may leave it out */
+    return (double)(sim_host_ns() - begun_ns) / 1e6;
+}
+
 bool bench_end_pass(struct bench *bench, uint32_t frames, uint64_t wanted)
 {
     uint64_t now_ns = sim_host_ns();
     if (bench->started_ns == 0) {
         bench->started_ns = now_ns; /* the first pass warms the caches, it counts if alone */
     }
+    bench->ms_memset[bench->passes] = time_memset(bench);
     bench->ms_per_frame[bench->passes++] = (double)bench->pass_ns / 1e6 / frames;
     bench->pass_ns = 0;
     if (wanted != 0) {
@@ -48,17 +65,21 @@ static int compare(const void *a, const void *b)
     return (left > right) - (left < right);
 }
 
+static double median_of(double *values, uint32_t count)
+{
+    qsort(values, count, sizeof *values, compare);
+    return (values[(count - 1) / 2] + values[count / 2]) / 2;
+}
+
 void bench_print(struct bench *bench, const struct settings *settings, uint32_t frames,
                  const struct ow_stats *sum, uint32_t crc)
 {
-    double *times = bench->ms_per_frame;
-    uint32_t count = bench->passes;
-    if (count > 1) { /* without the first pass */
-        times++;
-        count--;
-    }
-    qsort(times, count, sizeof *times, compare);
-    double median = (times[(count - 1) / 2] + times[count / 2]) / 2;
+    uint32_t warm = bench->passes > 1 ? 1 : 0; /* without the first pass, if there are others */
+    double *times = bench->ms_per_frame + warm;
+    double median = median_of(times, bench->passes - warm);
+    double memset_median = median_of(bench->ms_memset + warm, bench->passes - warm);
+    free(bench->yard);
+    bench->yard = NULL;
     printf("{\"order\":\"%s\",\"shade\":\"%s\",\"format\":\"%s\",\"width\":%" PRIu32
            ",\"height\":%" PRIu32 ",\"frames\":%" PRIu32 ",\"ms_per_frame_min\":%.6f,"
            "\"ms_per_frame_median\":%.6f,",
@@ -66,7 +87,7 @@ void bench_print(struct bench *bench, const struct settings *settings, uint32_t 
            settings->format->name, settings->size[0], settings->size[1], frames, times[0], median);
     printf("\"polygons_visited\":%" PRIu32 ",\"polygons_painted\":%" PRIu32
            ",\"pixels_written\":%" PRIu32 ",\"pixels_background\":%" PRIu32 ",\"spans\":%" PRIu32
-           ",\"crc32\":%" PRIu32 "}\n",
+           ",\"crc32\":%" PRIu32 ",\"ms_memset_median\":%.6f}\n",
            sum->polygons_visited, sum->polygons_painted, sum->pixels_written,
-           sum->pixels_background, sum->spans, crc);
+           sum->pixels_background, sum->spans, crc, memset_median);
 }

@@ -4,6 +4,7 @@
 #define OLDWELL_BOARDS_SIM_BENCH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "firmware/viewer/viewer.h"
@@ -17,6 +18,9 @@ struct bench {
     uint64_t pass_ns; /* of drawing alone, in this pass */
     uint64_t started_ns;
     double ms_per_frame[BENCH_PASSES_MAX];
+    double ms_memset[BENCH_PASSES_MAX]; /* of yard_bytes, after each pass */
+    uint8_t *yard;
+    size_t yard_bytes; /* of a frame */
     uint32_t passes;
 };
 

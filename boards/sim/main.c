@@ -156,6 +156,8 @@ static void start_viewer(struct run *run)
         config->view = views_give;
         config->view_context = &run->views;
     }
+    run->bench.yard_bytes =
+        (size_t)ow_row_bytes(settings->format, settings->size[0]) * settings->size[1];
     if (settings->bench || settings->stats) {
         config->probe = bench_probe;
         config->probe_context = &run->bench;

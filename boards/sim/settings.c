@@ -14,7 +14,7 @@
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 
-enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000 };
+enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000, OPTIONS_MOST = 64 };
 
 /* Names in the order of the core's enums where there is one; the rest is not there yet. */
 static const char *const orders[] = { "back-to-front", "front-to-back", "scanline", "auto", NULL };
@@ -161,7 +161,7 @@ static void check_look(const struct settings *settings, const struct raw *raw)
         settings_wrong("--aa 4x4 mixes colours, it does not go with --shade %s",
                        shades[look->shade]);
     }
-    if (look->coverage && raw->order == OW_BACK_TO_FRONT) {
+    if (look->coverage && raw->order != OW_FRONT_TO_BACK && raw->order != ORDER_AUTO) {
         settings_wrong("--aa 4x4 draws front to back, leave out --order");
     }
 }
@@ -297,14 +297,9 @@ static void set_defaults(struct settings *settings, struct raw *raw)
     };
 }
 
-void settings_read(struct settings *s, int argc, char **argv)
+/* Adds the options that say what is seen. Returns their count. */
+static size_t add_views(struct option_spec *to, struct settings *s, struct raw *raw)
 {
-    struct raw raw;
-    const char *formats[FORMATS_MOST + 1] = { NULL };
-    set_defaults(s, &raw);
-    for (uint32_t i = 0; i < ow_format_count && i < FORMATS_MOST; i++) {
-        formats[i] = ow_formats[i]->name;
-    }
     const struct option_spec specs[] = {
         { "size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX },
         { "eye", 0, OPTION_VECTOR, s->eye, "x,y,z", "where the eye is, in model units",
@@ -312,58 +307,77 @@ void settings_read(struct settings *s, int argc, char **argv)
         { "at", 0, OPTION_VECTOR, s->at, "x,y,z", "what it looks at (the model's middle)",
           .given = &s->has_at, .no_default = true },
         { "up", 0, OPTION_VECTOR, s->up, "x,y,z", "what is up in the picture",
-          .given = &raw.has_up },
+          .given = &raw->has_up },
         { "fov", 0, OPTION_DOUBLE, &s->fov, "DEG", "vertical field of view", .min = 1, .max = 170,
-          .given = &raw.has_fov },
+          .given = &raw->has_fov },
         { "parallel", 0, OPTION_DOUBLE, &s->parallel, "HEIGHT",
-          "parallel projection, what the picture's height shows", .given = &raw.has_parallel,
+          "parallel projection, what the picture's height shows", .given = &raw->has_parallel,
           .no_default = true },
         { "near", 0, OPTION_DOUBLE, &s->near, "D", "distance of the near plane (16 lattice steps)",
-          .given = &raw.has_near, .no_default = true },
+          .given = &raw->has_near, .no_default = true },
         { "orbit", 0, OPTION_UNSIGNED, &s->orbit, "N", "N views of one turn around the model",
-          .min = 1, .max = ORBIT_MAX, .given = &raw.has_orbit },
+          .min = 1, .max = ORBIT_MAX, .given = &raw->has_orbit },
         { "elevation", 0, OPTION_DOUBLE, &s->elevation, "DEG", "the orbit's height",
-          .min = -ELEVATION_MAX, .max = ELEVATION_MAX, .given = &raw.has_elevation },
+          .min = -ELEVATION_MAX, .max = ELEVATION_MAX, .given = &raw->has_elevation },
         { "views", 0, OPTION_STRING, &s->views, "FILE", .help = "views, one a line" },
         { "script", 0, OPTION_STRING, &s->script, "FILE",
           .help = "input events that turn the model" },
-        { "order", 0, OPTION_CHOICE, &raw.order, NULL, "the surface", .choices = orders },
-        { "shade", 0, OPTION_CHOICE, &raw.shade, NULL, "id: the source polygon's number",
+    };
+    memcpy(to, specs, sizeof specs);
+    return sizeof specs / sizeof specs[0];
+}
+
+/* Adds those that say how it looks. Returns their count. */
+static size_t add_look(struct option_spec *to, struct raw *raw, const char *const *formats)
+{
+    const struct option_spec specs[] = {
+        { "order", 0, OPTION_CHOICE, &raw->order, NULL, "the surface", .choices = orders },
+        { "shade", 0, OPTION_CHOICE, &raw->shade, NULL, "id: the source polygon's number",
           .choices = shades },
-        { "cull", 0, OPTION_CHOICE, &raw.cull, NULL, "auto: as the tree was built",
+        { "cull", 0, OPTION_CHOICE, &raw->cull, NULL, "auto: as the tree was built",
           .choices = culls },
-        { "format", 0, OPTION_CHOICE, &raw.format, NULL, "the panel's pixels", .choices = formats },
-        { "dither", 0, OPTION_FLAG, &raw.dither, NULL,
+        { "format", 0, OPTION_CHOICE, &raw->format, NULL, "the panel's pixels",
+          .choices = formats },
+        { "dither", 0, OPTION_FLAG, &raw->dither, NULL,
           .help = "ordered, in formats of few levels" },
-        { "map", 0, OPTION_CHOICE, &raw.map, NULL, "intensity as a colour, not the material's",
+        { "map", 0, OPTION_CHOICE, &raw->map, NULL, "intensity as a colour, not the material's",
           .choices = maps },
-        { "depth-cue", 0, OPTION_STRING, &raw.depth_cue, "NEAR,FAR",
+        { "depth-cue", 0, OPTION_STRING, &raw->depth_cue, "NEAR,FAR",
           .help = "colours fade to the background between these distances" },
-        { "aa", 0, OPTION_CHOICE, &raw.coverage, NULL, "4x4: 16 samples a pixel",
+        { "aa", 0, OPTION_CHOICE, &raw->coverage, NULL, "4x4: 16 samples a pixel",
           .choices = coverages },
-        { "threads", 0, OPTION_UNSIGNED, &raw.threads, "N", "bands drawn at a time", .min = 1,
+        { "threads", 0, OPTION_UNSIGNED, &raw->threads, "N", "bands drawn at a time", .min = 1,
           .max = 64 },
-        { "background", 0, OPTION_STRING, &raw.background, "RRGGBB",
+        { "background", 0, OPTION_STRING, &raw->background, "RRGGBB",
           .help = "colour behind the model" },
-        { "foreground", 0, OPTION_STRING, &raw.foreground, "RRGGBB",
+        { "foreground", 0, OPTION_STRING, &raw->foreground, "RRGGBB",
           .help = "colour of --shade lines" },
-        { "ambient", 0, OPTION_DOUBLE, &raw.ambient, "A",
+        { "ambient", 0, OPTION_DOUBLE, &raw->ambient, "A",
           "share of the light from everywhere, the rest is directional", .min = 0, .max = 1 },
-        { "highlight", 0, OPTION_DOUBLE, &raw.highlight, "A", "phong: share of white in its middle",
-          .min = 0, .max = 1 },
-        { "shininess", 0, OPTION_UNSIGNED, &raw.shininess, "N",
+        { "highlight", 0, OPTION_DOUBLE, &raw->highlight, "A",
+          "phong: share of white in its middle", .min = 0, .max = 1 },
+        { "shininess", 0, OPTION_UNSIGNED, &raw->shininess, "N",
           "phong: the highlight's exponent is 2^N", .min = 0, .max = 7 },
-        { "cut", 0, OPTION_STRING, &raw.cut, "A,B,C,D",
+        { "cut", 0, OPTION_STRING, &raw->cut, "A,B,C,D",
           .help = "keeps only where A x + B y + C z >= D; needs --sides two in owc" },
-        { "cap", 0, OPTION_STRING, &raw.cap, "RRGGBB",
+        { "cap", 0, OPTION_STRING, &raw->cap, "RRGGBB",
           .help = "where a closed model is cut; none: its inside is seen" },
-        { "budget", 0, OPTION_UNSIGNED, &raw.budget, "N",
+        { "budget", 0, OPTION_UNSIGNED, &raw->budget, "N",
           "work units a band may take: faces met and 16s of pixels; 0: no end (front-to-back)",
           .max = UINT32_MAX },
-        { "light", 0, OPTION_VECTOR, raw.light, "x,y,z",
+        { "light", 0, OPTION_VECTOR, raw->light, "x,y,z",
           .help = "towards the light: right, up, to the viewer" },
-        { "light-in-model", 0, OPTION_FLAG, &raw.light_in_model, NULL,
+        { "light-in-model", 0, OPTION_FLAG, &raw->light_in_model, NULL,
           .help = "--light is along the model's axes instead" },
+    };
+    memcpy(to, specs, sizeof specs);
+    return sizeof specs / sizeof specs[0];
+}
+
+/* Adds those that say what becomes of it. Returns their count. */
+static size_t add_outputs(struct option_spec *to, struct settings *s, struct raw *raw)
+{
+    const struct option_spec specs[] = {
         { "output", 'o', OPTION_STRING, &s->output, "PATTERN", .help = "a picture of each frame" },
         { "sheet", 0, OPTION_STRING, &s->sheet, "FILE", .help = "all frames on one picture" },
         { "columns", 0, OPTION_UNSIGNED, &s->columns, "N", "of the sheet (about square)", .min = 1,
@@ -383,14 +397,29 @@ void settings_read(struct settings *s, int argc, char **argv)
           .help = "where --compare writes its pictures (beside -o, or here)" },
         { "dump-views", 0, OPTION_STRING, &s->dump_views, "FILE",
           .help = "the views' integers as JSON" },
-        { "panel", 0, OPTION_CHOICE, &raw.panel, NULL, "it lends its memory, or takes bands",
+        { "panel", 0, OPTION_CHOICE, &raw->panel, NULL, "it lends its memory, or takes bands",
           .choices = panels },
         { "band", 0, OPTION_UNSIGNED, &s->band_lines, "LINES", "drawn at a time (all)", .min = 1,
           .max = OW_SCREEN_MAX, .no_default = true },
     };
+    memcpy(to, specs, sizeof specs);
+    return sizeof specs / sizeof specs[0];
+}
+
+void settings_read(struct settings *s, int argc, char **argv)
+{
+    struct raw raw;
+    const char *formats[FORMATS_MOST + 1] = { NULL };
+    set_defaults(s, &raw);
+    for (uint32_t i = 0; i < ow_format_count && i < FORMATS_MOST; i++) {
+        formats[i] = ow_formats[i]->name;
+    }
+    static struct option_spec specs[OPTIONS_MOST];
+    size_t count = add_views(specs, s, &raw);
+    count += add_look(specs + count, &raw, formats);
+    count += add_outputs(specs + count, s, &raw);
     static struct option_table table;
-    table =
-        (struct option_table){ usage, about, specs, sizeof specs / sizeof specs[0], 1, 1, notes };
+    table = (struct option_table){ usage, about, specs, count, 1, 1, notes };
     the_table = &table;
     options_parse(&table, argc, argv, &s->tree);
     read_look(s, &raw);

@@ -89,7 +89,7 @@ static uint32_t clip_by_plane(const struct ow_view *view, const struct ow_camera
         }
         if (last_by >= 0 && by < 0) {
             to[written] = meet(view, last, p, last_by, by, plane);
-            to[written++].marked = true; /* along the plane */
+            to[written++].marked = plane != CLIP_CUT; /* along the plane: only a cut shows */
         } else if (last_by < 0 && by >= 0) {
             to[written] = meet(view, p, last, by, last_by, plane);
             to[written++].marked = last->marked;

@@ -81,6 +81,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     frame->workspace = workspace;
     frame->window = (struct ow_window){ 0, view->height, view->width };
     frame->tag = next_stamp(workspace);
+    frame->gradient.beside = look->coverage;
     frame->draw_face = look->shade == OW_SHADE_LINES ? ow_lines_draw_face
                        : look->coverage              ? ow_coverage_draw_face
                                                      : NULL;

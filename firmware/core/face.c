@@ -31,7 +31,7 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
         uint32_t from = face->reverse ? corners - 1 - i : i;
         uint32_t vertex = ow_corner(frame->tree, face->at, from);
         workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
-        workspace->clip[0][i].marked = lines && ow_edge_is_marked(frame->tree, face, i);
+        workspace->clip[0][i].marked = lines && ow_line_is_left_out(frame, i);
         if (smooth) {
             workspace->clip[0][i].light =
                 ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse);

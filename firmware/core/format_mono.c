@@ -51,7 +51,7 @@ static void store(uint8_t *row, uint32_t first, uint32_t end, const uint32_t *rg
 
 static uint32_t get(const uint8_t *row, uint32_t x)
 {
-    return row[x / 8] >> (7 - (x & 7)) & 1u;
+    return (uint32_t)row[x / 8] >> (7 - (x & 7)) & 1;
 }
 
 const struct ow_pixel_format ow_format_mono = {

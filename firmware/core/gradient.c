@@ -123,8 +123,8 @@ static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_su
     return c;
 }
 
-/* The leftmost and the rightmost crossing of a line. False if the outline does not cross it. */
-static bool find_ends(const struct ow_gradient *g, ow_sub8 y, struct crossing *left,
+/* The leftmost and the rightmost crossing of a line; unchanged if the outline does not cross it. */
+static void find_ends(const struct ow_gradient *g, ow_sub8 y, struct crossing *left,
                       struct crossing *right)
 {
     bool any = false;
@@ -138,32 +138,16 @@ static bool find_ends(const struct ow_gradient *g, ow_sub8 y, struct crossing *l
         *right = !any || c.x > right->x ? c : *right;
         any = true;
     }
-    return any;
 }
 
-/* The nearest y that the outline, which is not flat, crosses. */
-static ow_sub8 nearest_crossed(const struct ow_gradient *g, ow_sub8 y)
-{
-    ow_sub8 top = g->points[0].y;
-    ow_sub8 bottom = top;
-    for (uint32_t i = 1; i < g->count; i++) {
-        top = g->points[i].y < top ? g->points[i].y : top;
-        bottom = g->points[i].y > bottom ? g->points[i].y : bottom;
-    }
-    return y < top ? top : bottom - 1;
-}
-
-/*
- * The ramp through the outermost two crossings of the line. Coverage asks for
- * lines whose centre the outline may just miss.
- */
+/* The ramp through the outermost two crossings of the line. */
 static void span_line(struct ow_gradient *g, ow_sub8 y)
 {
-    struct crossing left = { 0, { 0, 0, 0, 0 } };
-    struct crossing right = left;
-    if (!find_ends(g, y, &left, &right)) {
-        (void)find_ends(g, nearest_crossed(g, y), &left, &right);
-    }
+    struct crossing left = { 1, { 0, 0, 0, 0 } };
+    struct crossing right = { 0, { 0, 0, 0, 0 } };
+    find_ends(g, y, &left, &right);
+    g->left = left.x;
+    g->right_end = right.x;
     int32_t across = right.x - left.x;
     for (uint32_t k = 0; k < g->parts; k++) {
         int64_t slope = 0; /* per 1/256 pixel */
@@ -173,7 +157,7 @@ static void span_line(struct ow_gradient *g, ow_sub8 y)
             slope = (rise < 0 ? -(int64_t)steep : (int64_t)steep) * 4;
         }
         g->ramp[k].slope = slope * SUB;
-        g->ramp[k].at = ((int64_t)left.part[k] << FRACTION) + slope * (HALF - left.x);
+        g->ramp[k].at = (int64_t)left.part[k] * (1 << FRACTION) + slope * (HALF - left.x);
     }
 }
 
@@ -181,7 +165,7 @@ void ow_gradient_line(struct ow_gradient *gradient, int32_t line)
 {
     ow_sub8 y = line * SUB + HALF;
     gradient->line = line;
-    if (!gradient->is_plane) {
+    if (!gradient->is_plane || gradient->beside) {
         span_line(gradient, y);
         return;
     }
@@ -189,7 +173,64 @@ void ow_gradient_line(struct ow_gradient *gradient, int32_t line)
     for (uint32_t i = 0; i < gradient->parts; i++) {
         struct ow_ramp *ramp = &gradient->ramp[i];
         ramp->slope = gradient->right[i] * SUB;
-        ramp->at = ((int64_t)gradient->lights[0].part[i] << FRACTION) +
+        ramp->at = (int64_t)gradient->lights[0].part[i] * (1 << FRACTION) +
                    gradient->right[i] * (HALF - p[0].x) + gradient->down[i] * (y - p[0].y);
+    }
+}
+
+/* How far along the edge from a to b the point nearest to c lies, 13 bits. */
+static int32_t nearest_share(const struct ow_outline_point *a, const struct ow_outline_point *b,
+                             ow_sub8 x, ow_sub8 y)
+{
+    int64_t dx = b->x - a->x;
+    int64_t dy = b->y - a->y;
+    int64_t along = dx * (x - a->x) + dy * (y - a->y);
+    int64_t whole = dx * dx + dy * dy;
+    if (along <= 0 || whole == 0) {
+        return 0;
+    }
+    if (along >= whole) {
+        return 1 << 13;
+    }
+    while (whole >> 18 != 0) {
+        whole >>= 1;
+        along >>= 1;
+    }
+    return (int32_t)(((uint32_t)along << 13) / (uint32_t)whole);
+}
+
+/* The values at the outline's point nearest to (x, y). */
+static void find_nearest(const struct ow_gradient *g, ow_sub8 x, ow_sub8 y,
+                         struct ow_corner_light *light)
+{
+    int64_t least = INT64_MAX;
+    for (uint32_t i = 0; i < g->count; i++) {
+        uint32_t next = i + 1 == g->count ? 0 : i + 1;
+        const struct ow_outline_point *a = &g->points[i];
+        const struct ow_outline_point *b = &g->points[next];
+        int64_t share = nearest_share(a, b, x, y);
+        int64_t dx = x - a->x - (((b->x - a->x) * share) >> 13);
+        int64_t dy = y - a->y - (((b->y - a->y) * share) >> 13);
+        if (dx * dx + dy * dy >= least) {
+            continue;
+        }
+        least = dx * dx + dy * dy;
+        for (uint32_t k = 0; k < g->parts; k++) {
+            int32_t from = g->lights[i].part[k];
+            light->part[k] = from + (int32_t)(((g->lights[next].part[k] - from) * share) >> 13);
+        }
+    }
+}
+
+void ow_gradient_beside(const struct ow_gradient *gradient, uint32_t x,
+                        struct ow_corner_light *light)
+{
+    ow_sub8 centre = (ow_sub8)x * SUB + HALF;
+    if (centre < gradient->left || centre > gradient->right_end) {
+        find_nearest(gradient, centre, gradient->line * SUB + HALF, light);
+        return;
+    }
+    for (uint32_t i = 0; i < gradient->parts; i++) {
+        light->part[i] = ow_ramp_value(&gradient->ramp[i], x);
     }
 }

@@ -21,6 +21,12 @@ bool ow_edge_is_marked(const struct ow_tree *tree, const struct ow_face *face, u
     return ow_read_u16(bytes, marks_at + edge / 16 * 2) >> edge % 16 & 1;
 }
 
+bool ow_line_is_left_out(const struct ow_frame *frame, uint32_t i)
+{
+    return (frame->shader.caps && frame->face.reverse) ||
+           ow_edge_is_marked(frame->tree, &frame->face, i);
+}
+
 /* An edge on its way along its longer axis, from one pixel's centre to the next. */
 struct line {
     int32_t along; /* the pixel on the longer axis */
@@ -221,7 +227,7 @@ static void draw_lines(struct ow_frame *frame)
     use_colour(frame, ow_shade_face(&frame->shader, frame->tree, &frame->face));
     for (uint32_t i = 0; i < frame->points; i++) {
         bool marked = frame->clipped ? workspace->corner_lights[i].part[0] != 0
-                                     : ow_edge_is_marked(frame->tree, &frame->face, i);
+                                     : ow_line_is_left_out(frame, i);
         if (!marked) {
             add_line(frame, p[i], p[i + 1 < frame->points ? i + 1 : 0]);
         }

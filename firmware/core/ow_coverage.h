@@ -3,7 +3,8 @@
  * Coverage [FAG83]: each pixel has 4x4 samples. The picture is that of a screen
  * of four times the width and height, 16 of its pixels summed exactly and
  * rounded once; smooth shading takes one colour for all samples that a face has
- * of a pixel, the one at the pixel's centre.
+ * of a pixel: the one at the pixel's centre, or at the point of the outline that
+ * is nearest to it.
  */
 #ifndef OW_COVERAGE_H
 #define OW_COVERAGE_H

@@ -23,6 +23,9 @@ struct ow_gradient {
     const struct ow_outline_point *points;
     const struct ow_corner_light *lights;
     uint32_t count;
+    bool beside;                   /* set by the caller: ow_gradient_beside will be asked */
+    ow_sub8 left;                  /* beside: the line's outermost crossings, */
+    ow_sub8 right_end;             /* left is greater if there are none */
     uint32_t parts;                /* 1 .. OW_LIGHT_PARTS */
     int32_t line;                  /* the one that ramp is for; -1: none */
     bool is_plane;                 /* a triangle: down and right hold for all lines */
@@ -37,6 +40,13 @@ void ow_gradient_begin(struct ow_gradient *gradient, const struct ow_outline_poi
 
 /* Makes gradient->ramp for a scan line that the outline crosses. */
 void ow_gradient_line(struct ow_gradient *gradient, int32_t line);
+
+/*
+ * The values at a pixel of the ramp's line, for coverage: where its centre lies
+ * beside the outline, those of the outline's nearest point.
+ */
+void ow_gradient_beside(const struct ow_gradient *gradient, uint32_t x,
+                        struct ow_corner_light *light);
 
 /* The value at a pixel of the ramp's line. */
 static inline int32_t ow_ramp_value(const struct ow_ramp *ramp, uint32_t x)

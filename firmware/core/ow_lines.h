@@ -27,4 +27,10 @@ bool ow_lines_box(const struct ow_frame *frame, struct ow_box *box);
  */
 bool ow_edge_is_marked(const struct ow_tree *tree, const struct ow_face *face, uint32_t i);
 
+/*
+ * True if the edge from corner i of frame->face's outline is not drawn: it is
+ * marked, or the face is part of a cap, which shows only where it was cut.
+ */
+bool ow_line_is_left_out(const struct ow_frame *frame, uint32_t i);
+
 #endif

@@ -90,7 +90,7 @@ void ow_surface_become_background(struct ow_surface *surface, uint32_t packed);
 void ow_write_background(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end,
                          uint32_t packed);
 
-/* The colour of one pixel by the surface's gradient. */
+/* Coverage: the colour of one pixel by the surface's gradient, which is set for such questions. */
 uint32_t ow_smooth_pixel(struct ow_surface *surface, uint32_t line, uint32_t x);
 
 /* Writes pixels first .. end-1 of a line in the colour or gradient of the face. */

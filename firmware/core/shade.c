@@ -209,7 +209,7 @@ static uint32_t add_whites(uint32_t colour, uint32_t white)
     return add_white(colour, 16, white) | add_white(colour, 8, white) | add_white(colour, 0, white);
 }
 
-/* What is seen of a colour under an intensity 0 .. 256 and a highlight, as far away as share says. */
+/* What is seen of a colour under an intensity 0 .. 256 and a highlight, at share of its depth. */
 static uint32_t finish(const struct ow_shader *shader, uint32_t colour, uint32_t intensity,
                        uint32_t white, int32_t share_q16)
 {

@@ -21,7 +21,9 @@ uint32_t ow_smooth_pixel(struct ow_surface *surface, uint32_t line, uint32_t x)
     if (surface->gradient->line != (int32_t)line) {
         ow_gradient_line(surface->gradient, (int32_t)line);
     }
-    return shade_pixel(surface, x);
+    struct ow_corner_light light;
+    ow_gradient_beside(surface->gradient, x, &light);
+    return ow_shade_pixel(surface->shader, surface->rgb, &light);
 }
 
 static void write_smooth(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)

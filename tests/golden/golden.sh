@@ -45,6 +45,8 @@ oldwell-lines-inside: =oldwell-high: : --views tests/golden/oldwell-inside.txt -
     --shade lines
 oldwell-heat: =oldwell-high: : --orbit 4 --size 160x120 --map heat
 oldwell-depth: =oldwell-high: : --orbit 4 --size 160x120 --depth-cue 12,21
+oldwell-cut: oldwell --detail high: --sides two: --orbit 4 --size 160x120 --cut 0,0,-1,0 --aa 4x4
+oldwell-cut-lines: =oldwell-cut: : --orbit 4 --size 160x120 --cut 0,0,-1,0 --shade lines
 oldwell-565-dither: =oldwell-high: : --orbit 2 --size 160x120 --format rgb565 --dither
 oldwell-332-dither: =oldwell-high: : --orbit 2 --size 160x120 --format rgb332 --dither
 oldwell-gray4-dither: =oldwell-high: : --orbit 2 --size 161x120 --format gray4 --dither

@@ -4,7 +4,7 @@
  * lie in one plane, are needles. From random eyes, whatever hides a part of a face
  * must come after it, farthest first; nothing may be met twice or be lost. Faces are
  * those of the compiled tree, rounded to the lattice: what hides by less than a
- * few steps is left out.
+ * few steps is left out. SCENES=N in the environment: more scenes, or less.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -345,8 +345,10 @@ static void hidden_before_hiding(void **state)
     struct face *faces = xalloc(MOST_FACES, sizeof *faces);
     uint64_t pairs[STRATEGIES] = { 0 };
     uint64_t splits[STRATEGIES] = { 0 };
+    const char *wanted = getenv("SCENES");
+    uint32_t scenes = wanted != NULL ? (uint32_t)strtoul(wanted, NULL, 10) : SCENES;
     assert_true(user_planes_read(&planes, planes_text, &problem));
-    for (uint32_t seed = 1; seed <= SCENES; seed++) {
+    for (uint32_t seed = 1; seed <= scenes; seed++) {
         struct model model;
         struct lattice lattice;
         double area = 0;
@@ -366,7 +368,9 @@ static void hidden_before_hiding(void **state)
             }
             splits[number] += stats.splits;
             area = number == 0 ? area_of(&tree) : area;
-            if (fabs(area_of(&tree) - area) > 1e-3 * area) {
+            /* Rounding moves edges, as long as the cube at most, by half a step. */
+            double rounding = 32767.0 * tree.polygon_count;
+            if (fabs(area_of(&tree) - area) > 1e-3 * area + rounding) {
                 print_error("seed %u, strategy %u: area %g, expected %g\n", seed, number,
                             area_of(&tree), area);
                 fail();
@@ -378,8 +382,8 @@ static void hidden_before_hiding(void **state)
     for (uint32_t i = 0; i < STRATEGIES; i++) {
         print_message("strategy %u: %llu hidden pairs, %llu splits\n", i,
                       (unsigned long long)pairs[i], (unsigned long long)splits[i]);
-        assert_true(pairs[i] > 4 * SCENES);
-        assert_true(splits[i] > 2 * SCENES);
+        assert_true(pairs[i] > 4ull * scenes);
+        assert_true(splits[i] > 2ull * scenes);
     }
     user_planes_free(&planes);
     free(faces);

@@ -66,7 +66,7 @@ static void paint_face(struct canvas *canvas, const struct random_scene *scene,
     struct ow_outline_point points[MOST_CORNERS];
     struct ow_corner_light lights[MOST_CORNERS];
     struct ow_scan_edge edges[MOST_CORNERS];
-    struct ow_gradient gradient;
+    struct ow_gradient gradient = { .beside = false };
     struct ow_box box;
     uint32_t count = random_scene_outline(scene, view, face, points);
     bool smooth = ow_shade_is_smooth(canvas->shader->shade);

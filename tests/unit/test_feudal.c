@@ -28,8 +28,8 @@ struct table {
     uint8_t side[MOST][MOST];
     uint32_t plane[MOST];
     bool reversed[MOST];
-    uint32_t split[3];      /* what may be cut, by which plane ... */
-    uint32_t parts[2];      /* ... and into what */
+    uint32_t split[3]; /* what may be cut, by which plane ... */
+    uint32_t parts[2]; /* ... and into what */
     uint32_t splits;
     bool asked[MOST][MOST]; /* side(p, q) was asked for */
     uint32_t asked_count;
@@ -69,8 +69,8 @@ static struct feudal_source source_of(struct table *table)
 }
 
 /* A row: numbers in front, behind and across, each list ended by 0. */
-static void set_row(struct table *table, uint32_t row, const uint32_t *front,
-                    const uint32_t *back, const uint32_t *across)
+static void set_row(struct table *table, uint32_t row, const uint32_t *front, const uint32_t *back,
+                    const uint32_t *across)
 {
     for (; *front != 0; front++) {
         table->side[row][*front] = F;
@@ -225,7 +225,7 @@ static void coplanar_polygons(void **state)
     t.side[4][1] = t.side[4][2] = t.side[4][3] = B;
     make(&f, &t, LIST(1, 2, 3, 4), 4, false, text);
     assert_string_equal(text, "[2|1,3,4]");
-    assert_int_equal(f.relations, 3 + 3); /* two rows, not four */
+    assert_int_equal(f.relations, 3 + 3);   /* two rows, not four */
     assert_int_equal(t.asked_count, 1 + 3); /* what lies in the plane itself is known */
     feudal_free(&f);
     /* The dynamic version takes the whole plane with its first polygon. */
@@ -278,6 +278,29 @@ static void separating_comes_before_splitting(void **state)
     /* The dynamic version takes the first plane that separates, not the best. */
     make(&f, &t, LIST(2, 1, 3, 4, 5, 6, 7), 7, true, text);
     assert_memory_equal(text, " 2<2>(", 6);
+    feudal_free(&f);
+}
+
+/*
+ * Nine walls in a row, 8 has nothing but 1 across its plane. Once 3 has parted 1 from
+ * it, it separates what is left on its side.
+ */
+static void a_divided_table_is_counted_off(void **state)
+{
+    (void)state;
+    struct table t;
+    struct feudal f;
+    char text[400];
+    memset(&t, 0, sizeof t);
+    for (uint32_t i = 1; i <= 9; i++) {
+        t.plane[i] = i;
+        for (uint32_t k = 1; k <= 9; k++) {
+            t.side[i][k] = k > i ? F : B;
+        }
+    }
+    t.side[8][1] = C;
+    make(&f, &t, LIST(8, 3, 4, 5, 6, 7, 9, 1, 2), 9, true, text);
+    assert_string_equal(text, " 3<3>( 8<8>([9|])([4|][5|][6|][7|]))([1|][2|])");
     feudal_free(&f);
 }
 
@@ -339,6 +362,7 @@ int main(void)
         cmocka_unit_test(the_papers_example_dynamic),
         cmocka_unit_test(coplanar_polygons),
         cmocka_unit_test(separating_comes_before_splitting),
+        cmocka_unit_test(a_divided_table_is_counted_off),
         cmocka_unit_test(bunches_become_sequences),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,8 @@ static const struct models_pose at_origin = { 0, 0, { 0, 0, 0 } };
 
 static void add_box(struct model *model, double size, double x, double y, double z)
 {
-    models_box(model, (double[]){ size, size, size }, 1, &(struct models_pose){ 0, 0, { x, y, z } });
+    models_box(model, (double[]){ size, size, size }, 1,
+               &(struct models_pose){ 0, 0, { x, y, z } });
 }
 
 /* Turns over the polygons from first to last. */
@@ -83,6 +84,15 @@ static void open_and_forked_edges(void **state)
     found = check_once(&model);
     assert_int_equal(found.forked_edges, 1);
     assert_int_equal(found.open_edges, 0);
+    import_free(&model);
+    model = (struct model){ 0 };
+    add_box(&model, 2, 0, 0, 0);
+    models_polygon(
+        &model, (uint32_t[]){ model.corners[0], model.corners[1], models_vertex(&model, 3, 3, 3) },
+        3);
+    found = check_once(&model);
+    assert_int_equal(found.forked_edges, 1); /* of three polygons */
+    assert_int_equal(found.open_edges, 2);
     import_free(&model);
 }
 
@@ -203,6 +213,10 @@ static void crossings_are_counted(void **state)
     add_box(&model, 2, 0, 0, 0);
     add_box(&model, 2, 2, 0, 0);
     models_box(&model, (double[]){ 1, 1, 1 }, 1, &(struct models_pose){ 0.5, 0, { 0, 0, 1.5 } });
+    /* Rods along sides: their edges pass through the outlines of the boxes' ends. */
+    models_box(&model, (double[]){ 1, 1, 9 }, 1, &(struct models_pose){ 0, 0, { -1.5, 0, 0 } });
+    models_box(&model, (double[]){ 9, 0.5, 1 }, 1,
+               &(struct models_pose){ 0, 0, { 0, 0.75, -1.5 } });
     assert_int_equal(crossings(&model), 0);
     import_free(&model);
 }
@@ -216,7 +230,8 @@ static void the_hierarchy_misses_nothing(void **state)
     for (int i = 0; i < 9; i++) { /* rods through cells' middles: front and back, 4 sides each */
         double x = -17.5 + 5 * (i % 8);
         double y = i == 8 ? 1.25 : 0.25;
-        models_box(&model, (double[]){ 0.1, 0.1, 9 }, 1, &(struct models_pose){ 0, 0, { x, y, 0 } });
+        models_box(&model, (double[]){ 0.1, 0.1, 9 }, 1,
+                   &(struct models_pose){ 0, 0, { x, y, 0 } });
     }
     assert_int_equal(crossings(&model), 9 * 8);
     import_free(&model);

@@ -29,13 +29,14 @@ static void planes_are_read(void **state)
     (void)state;
     struct user_planes planes;
     struct problem problem;
-    assert_true(user_planes_read(&planes, "# two planes\n\n 1,0,0,-2\t# x = 2\n0,0.5,1e-3,7", &problem));
+    assert_true(
+        user_planes_read(&planes, "# two planes\n\n 1,0,0,-2\t# x = 2\n0,0.5,1e-3,7", &problem));
     assert_int_equal(planes.count, 2);
     assert_true(planes.all[0][0] == 1 && planes.all[0][3] == -2);
     assert_true(planes.all[1][1] == 0.5 && planes.all[1][2] == 1e-3 && planes.all[1][3] == 7);
     user_planes_free(&planes);
     static const char *const wrong[] = { "1,0,0,1\n1,0,0", "\n1,0,0,1,5", "\n0,0,0,1",
-                                         "\n1,0,nan,0", "\n1,0,0,1x", "\n1 0 0 1" };
+                                         "\n1,0,nan,0",    "\n1,0,0,1x",  "\n1 0 0 1" };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         assert_false(user_planes_read(&planes, wrong[i], &problem));
         assert_int_equal(problem.line, 2);
@@ -156,8 +157,8 @@ static void clusters_are_kept_apart(void **state)
     /* Eight planes part nine boxes; a box is a chain of five switches and a face. */
     assert_int_equal(switches, 8 + 9 * 5);
     options.dividing_axis = false;
-    assert_true(user_planes_read(&planes, "1,0,0,-2\n1,0,0,-6\n0,1,0,-2\n0,1,0,-6\n0,0,1,5",
-                                 &problem));
+    assert_true(
+        user_planes_read(&planes, "1,0,0,-2\n1,0,0,-6\n0,1,0,-2\n0,1,0,-6\n0,0,1,5", &problem));
     options.dividing = &planes;
     assert_int_equal(splits_with(&model, &options, &switches), 0);
     assert_int_equal(switches, 8 + 9 * 5); /* the last plane parts nothing and is left out */
@@ -191,10 +192,10 @@ static void conflicts_are_counted(void **state)
     struct conflict conflict = { 0 };
     uint64_t relations = 0;
     add_square(&s.model, 2, 0, -9, 9);
-    add_square(&s.model, 0, 1, 2, 5);   /* in front: y and z from 2 to 5 */
-    add_square(&s.model, 1, 2, -5, -1); /* behind: z and x from -5 to -1; y = 2 */
-    add_square(&s.model, 0, 3, -4, 4);  /* across: y and z from -4 to 4 */
-    add_square(&s.model, 1, 0, -8, 8);  /* across: z and x from -8 to 8; meets the one before */
+    add_square(&s.model, 0, 1, 2, 5);    /* in front: y and z from 2 to 5 */
+    add_square(&s.model, 1, 2, -5, -1);  /* behind: z and x from -5 to -1; y = 2 */
+    add_square(&s.model, 0, 3, -4, 4);   /* across: y and z from -4 to 4 */
+    add_square(&s.model, 1, 0, -8, 8);   /* across: z and x from -8 to 8; meets the one before */
     add_square(&s.model, 0, -2, -8, -7); /* behind: y and z from -8 to -7 */
     scene_begin(&s);
     uint32_t plane = s.pieces.all[0].record;
@@ -210,8 +211,8 @@ static void conflicts_are_counted(void **state)
     assert_int_equal(relations, 2 * (6 + 2 + 2 + 4));
     /* 0, 2 and 4 stand across the plane x = -2, 1 and 3 are in front of it. */
     plane = s.pieces.all[5].record;
-    double score = conflict_score(&conflict, &s.arrangement, &s.pieces, s.list, 6, plane, 1,
-                                  &relations);
+    double score =
+        conflict_score(&conflict, &s.arrangement, &s.pieces, s.list, 6, plane, 1, &relations);
     /* Nothing behind. Across {0, 2, 4}: the planes of 2 and 4 meet 0, that of 0 meets 4. */
     assert_true(score == -3);
     conflict_free(&conflict);
@@ -226,8 +227,8 @@ static void saved_conflicts_count(void **state)
     struct conflict conflict = { 0 };
     uint64_t relations = 0;
     add_square(&s.model, 2, 0, -1, 1);
-    add_square(&s.model, 0, 1, 2, 4);   /* in front: y, z from 2 to 4 */
-    add_square(&s.model, 1, 3, -4, 4);  /* across: z, x from -4 to 4 */
+    add_square(&s.model, 0, 1, 2, 4);     /* in front: y, z from 2 to 4 */
+    add_square(&s.model, 1, 3, -4, 4);    /* across: z, x from -4 to 4 */
     add_square(&s.model, 1, 2.5, -4, -1); /* behind: z, x from -4 to -1: its plane meets 1 */
     scene_begin(&s);
     assert_true(conflict_score(&conflict, &s.arrangement, &s.pieces, s.list, 4,
@@ -340,14 +341,10 @@ static void numbers_are_regions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_are_read),
-        cmocka_unit_test(planes_come_to_the_lattice),
-        cmocka_unit_test(gaps_are_found),
-        cmocka_unit_test(clusters_are_kept_apart),
-        cmocka_unit_test(conflicts_are_counted),
-        cmocka_unit_test(saved_conflicts_count),
-        cmocka_unit_test(regions_are_numbered),
-        cmocka_unit_test(numbers_are_regions),
+        cmocka_unit_test(planes_are_read),       cmocka_unit_test(planes_come_to_the_lattice),
+        cmocka_unit_test(gaps_are_found),        cmocka_unit_test(clusters_are_kept_apart),
+        cmocka_unit_test(conflicts_are_counted), cmocka_unit_test(saved_conflicts_count),
+        cmocka_unit_test(regions_are_numbered),  cmocka_unit_test(numbers_are_regions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,8 +73,8 @@ static void the_first_polygon_is_the_root(void **state)
     uint32_t word = ow_read_u32(tree.bytes, tree.nodes_at);
     assert_int_equal(word & OW_NODE_KIND_MASK, OW_NODE_SWITCH);
     assert_int_equal(word >> OW_NODE_COUNT_SHIFT, 2);
-    uint32_t first_at = tree.nodes_at + OW_NODE_WORD_BYTES + OW_SWITCH_CHILDREN_BYTES +
-                        OW_SWITCH_PLANE_BYTES;
+    uint32_t first_at =
+        tree.nodes_at + OW_NODE_WORD_BYTES + OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES;
     for (uint32_t i = 0; i < 2; i++) {
         struct models_record record;
         uint32_t item = ow_read_u32(tree.bytes, first_at + 4 * i);
@@ -195,8 +195,8 @@ static void records_are_carried_over(void **state)
         struct models_record record;
         at = models_read_record(&tree, at, &record);
         assert_in_range(record.source, 1, 12);
-        uint32_t colour = ow_read_u32(
-            tree.bytes, tree.colours_at + 4 * (record.look & OW_POLYGON_COLOUR_MASK));
+        uint32_t colour =
+            ow_read_u32(tree.bytes, tree.colours_at + 4 * (record.look & OW_POLYGON_COLOUR_MASK));
         assert_int_equal(colour, record.source <= 6 ? 0x112233 : 0x445566);
         seen[record.source]++;
     }

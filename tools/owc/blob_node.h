@@ -15,7 +15,7 @@ struct blob_node {
     uint32_t children_at; /* of a switch: two items, then its plane */
     uint32_t plane_at;
     uint32_t items_at;
-    uint32_t count; /* items */
+    uint32_t count;  /* items */
     uint32_t end_at; /* where the next node begins */
 };
 
@@ -27,8 +27,7 @@ static inline struct blob_node blob_node_at(const struct ow_tree *tree, uint32_t
     node.children_at = at + OW_NODE_WORD_BYTES;
     node.children_at += (word & OW_NODE_BOUNDED) ? OW_NODE_BOUNDS_BYTES : 0u;
     node.plane_at = node.children_at + OW_SWITCH_CHILDREN_BYTES;
-    node.items_at =
-        node.is_switch ? node.plane_at + OW_SWITCH_PLANE_BYTES : node.children_at;
+    node.items_at = node.is_switch ? node.plane_at + OW_SWITCH_PLANE_BYTES : node.children_at;
     node.end_at = node.items_at + 4 * node.count;
     return node;
 }

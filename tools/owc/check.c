@@ -29,7 +29,7 @@ struct part {
     wide volume; /* six times */
     int16_t low[3];
     int16_t high[3];
-    bool closed;    /* each edge has two polygons */
+    bool closed; /* each edge has two polygons */
     bool orientable;
     bool mixed; /* its polygons' windings disagree */
 };
@@ -199,8 +199,9 @@ static void measure_parts(struct checker *c)
     c->parts = xalloc(c->check->parts, sizeof *c->parts);
     c->turned = xalloc_zero(c->mesh->polygon_count, sizeof *c->turned);
     for (uint32_t i = 0; i < c->check->parts; i++) {
-        c->parts[i] = (struct part){ 0, { 32767, 32767, 32767 }, { -32767, -32767, -32767 },
-                                     true, true, false };
+        c->parts[i] = (struct part){
+            0, { 32767, 32767, 32767 }, { -32767, -32767, -32767 }, true, true, false
+        };
     }
     compare_windings(c);
     for (uint32_t i = 0; i < c->mesh->polygon_count; i++) {
@@ -341,8 +342,7 @@ void check_mesh(struct mesh_check *check, struct mesh *mesh, bool repair)
 void check_report(const struct mesh_check *check, const char *file)
 {
     if (check->open_edges > 0) {
-        warn_line(file, 0, "is not closed: %u edges belong to one polygon only",
-                  check->open_edges);
+        warn_line(file, 0, "is not closed: %u edges belong to one polygon only", check->open_edges);
     }
     if (check->forked_edges > 0) {
         warn_line(file, 0, "is not manifold: %u edges belong to more than two polygons",
@@ -357,8 +357,9 @@ void check_report(const struct mesh_check *check, const char *file)
                   check->parts);
     }
     if (check->to_turn > 0) {
-        warn_line(file, 0, check->repaired ? "%u polygons were turned over"
-                                           : "%u polygons look inwards, --repair turns them over",
+        warn_line(file, 0,
+                  check->repaired ? "%u polygons were turned over"
+                                  : "%u polygons look inwards, --repair turns them over",
                   check->to_turn);
     }
     if (check->cavities > 0) {

@@ -15,8 +15,8 @@ enum set { IN_FRONT, ACROSS, BEHIND };
 
 static void put(struct conflict *c, enum set set, uint32_t piece)
 {
-    c->sets[set] = xgrow(c->sets[set], &c->capacity[set], (size_t)c->counts[set] + 1,
-                         sizeof *c->sets[set]);
+    c->sets[set] =
+        xgrow(c->sets[set], &c->capacity[set], (size_t)c->counts[set] + 1, sizeof *c->sets[set]);
     c->sets[set][c->counts[set]++] = piece;
 }
 
@@ -61,20 +61,18 @@ static uint64_t coprime_from(uint64_t step, uint64_t row)
 
 /* I(m,n), or what a sample of the pairs says that it is. */
 static double count_pairs(const struct conflict *c, const struct arrangement *arrangement,
-                          const struct pieces *pieces, enum set m, enum set n,
-                          uint64_t *relations)
+                          const struct pieces *pieces, enum set m, enum set n, uint64_t *relations)
 {
     uint64_t pairs = (uint64_t)c->counts[m] * c->counts[n];
-    uint64_t step = pairs > CONFLICT_PAIRS ? coprime_from(pairs / CONFLICT_PAIRS + 1, c->counts[n])
-                                           : 1;
+    uint64_t step =
+        pairs > CONFLICT_PAIRS ? coprime_from(pairs / CONFLICT_PAIRS + 1, c->counts[n]) : 1;
     uint64_t looked = 0;
     uint64_t meet = 0;
     for (uint64_t i = 0; i < pairs; i += step) {
         uint32_t root = c->sets[m][i / c->counts[n]];
         uint32_t piece = c->sets[n][i % c->counts[n]];
         looked++;
-        meet += split_side_of(arrangement, pieces, piece, pieces->all[root].record) ==
-                SPLIT_ACROSS;
+        meet += split_side_of(arrangement, pieces, piece, pieces->all[root].record) == SPLIT_ACROSS;
     }
     *relations += looked;
     return looked > 0 ? (double)meet * (double)pairs / (double)looked : 0;

@@ -133,8 +133,8 @@ static bool is_inside(const struct mesh *mesh, const struct mesh_polygon *polygo
         if ((a[y] <= point[y]) == (b[y] <= point[y])) {
             continue;
         }
-        double cross = (double)(b[x] - a[x]) * (point[y] - a[y]) -
-                       (double)(b[y] - a[y]) * (point[x] - a[x]);
+        double cross =
+            (double)(b[x] - a[x]) * (point[y] - a[y]) - (double)(b[y] - a[y]) * (point[x] - a[x]);
         bool up = a[y] < b[y];
         winding += up && cross > 0 ? 1 : !up && cross < 0 ? -1 : 0;
     }

@@ -64,8 +64,8 @@ bool user_planes_read(struct user_planes *planes, const char *text, struct probl
                 return problem_set(problem, number,
                                    "is no plane, write a,b,c,d for ax + by + cz + d = 0");
             }
-            planes->all = xgrow(planes->all, &planes->capacity, planes->count + 1,
-                                sizeof *planes->all);
+            planes->all =
+                xgrow(planes->all, &planes->capacity, planes->count + 1, sizeof *planes->all);
             memcpy(planes->all[planes->count++], plane, sizeof plane);
         }
         text += strcspn(text, "\n");
@@ -74,8 +74,7 @@ bool user_planes_read(struct user_planes *planes, const char *text, struct probl
     return true;
 }
 
-bool user_planes_read_file(struct user_planes *planes, const char *path,
-                           struct problem *problem)
+bool user_planes_read_file(struct user_planes *planes, const char *path, struct problem *problem)
 {
     char *text = NULL;
     size_t capacity = 0;
@@ -170,8 +169,7 @@ static void look_along(int axis, const struct extent *extents, uint32_t count, s
         double width = extents[i].low - reached;
         double middle = floor((extents[i].low + reached) / 2 + 0.5);
         uint32_t emptier = i < count - i ? i : count - i;
-        bool better = emptier > best->emptier ||
-                      (emptier == best->emptier && width > best->width);
+        bool better = emptier > best->emptier || (emptier == best->emptier && width > best->width);
         if (width > 0 && middle >= reached && middle <= extents[i].low && better) {
             *best = (struct gap){ emptier, width, middle, axis };
         }

@@ -25,8 +25,7 @@ struct user_planes {
 
 /* Reads "a,b,c,d" a line; blanks, empty lines and what follows a # are skipped. */
 bool user_planes_read(struct user_planes *planes, const char *text, struct problem *problem);
-bool user_planes_read_file(struct user_planes *planes, const char *path,
-                           struct problem *problem);
+bool user_planes_read_file(struct user_planes *planes, const char *path, struct problem *problem);
 void user_planes_free(struct user_planes *planes);
 
 /* Adds the planes that meet the lattice's cube; writes their numbers and returns how many. */

@@ -148,8 +148,8 @@ static void find_fate(struct maker *m, const struct group *g, uint32_t number)
 static void put_polygon(struct maker *m, struct feudal_bunch *bunch, uint32_t polygon)
 {
     struct feudal *f = m->feudal;
-    f->polygons = xgrow(f->polygons, &f->polygon_capacity, f->polygon_count + 1,
-                        sizeof *f->polygons);
+    f->polygons =
+        xgrow(f->polygons, &f->polygon_capacity, f->polygon_count + 1, sizeof *f->polygons);
     f->polygons[f->polygon_count++] = polygon;
     bunch->count++;
     m->placed++;
@@ -305,17 +305,95 @@ static uint32_t half_end(struct maker *m, struct half *half, const struct group 
     return node;
 }
 
-/* Makes the row's plane the switch; what is left goes to its two sides. */
-static void divide(struct maker *m, struct group *g, uint32_t number)
+/* One more column in a row, for a part of a member. */
+static void add_column(struct maker *m, struct group *g, uint32_t r, uint32_t from, uint32_t at)
+{
+    struct row *row = &g->rows[r];
+    const struct member *part = &g->members[at];
+    uint8_t side = row->sides[from];
+    if (side == SPLIT_ACROSS && part->row != r) {
+        m->feudal->relations++;
+        side = (uint8_t)m->source->side(m->source->context, part->polygon, row->plane);
+    }
+    row->sides[at] = side;
+    row->counts[side]++;
+}
+
+/* Members that are not in the half are gone; its parts are put at the end. */
+static void keep_members(const struct half *half, struct group *g, uint32_t *taken,
+                         uint32_t *taken_count)
+{
+    const struct group *h = &half->group;
+    uint32_t old = g->count;
+    uint32_t next = 0; /* of the half */
+    g->members = xresize(g->members, (size_t)old + h->count, sizeof *g->members);
+    for (uint32_t i = 0; i < old; i++) {
+        bool stays = next < h->count && half->from[next] == i && !half->is_part[next];
+        if (next < h->count && half->from[next] == i) {
+            if (half->is_part[next]) {
+                struct member part = { .polygon = h->members[next].polygon,
+                                       .row = g->members[i].row };
+                g->rows[part.row].members++;
+                g->members[g->count++] = part;
+            }
+            next++;
+        }
+        if (!stays && !g->members[i].gone) {
+            g->members[i].gone = true;
+            g->rows[g->members[i].row].members--;
+            taken[(*taken_count)++] = i;
+        }
+    }
+}
+
+/*
+ * The half with most members takes over the divided group's table: what is gone
+ * is counted off, parts become new columns. So a switch costs as much as it takes away.
+ */
+static uint32_t half_take_over(struct maker *m, struct half *half, struct group *g)
+{
+    uint32_t old = g->count;
+    uint32_t taken_count = 0;
+    uint32_t *taken = xalloc(g->left, sizeof *taken);
+    keep_members(half, g, taken, &taken_count);
+    for (uint32_t r = 0; r < g->row_count; r++) {
+        struct row *row = &g->rows[r];
+        if (row->members == 0) {
+            free_sides(m, row, old);
+        }
+        if (row->sides == NULL) {
+            continue;
+        }
+        for (uint32_t i = 0; i < taken_count; i++) {
+            row->counts[row->sides[taken[i]]]--;
+        }
+        row->sides = xresize(row->sides, g->count, 1);
+        m->table_bytes += g->count - old;
+        for (uint32_t i = 0, at = old; at < g->count; i++) {
+            if (half->is_part[i]) {
+                add_column(m, g, r, half->from[i], at++);
+            }
+        }
+    }
+    g->left = half->group.count;
+    g->node = add_node(m->feudal);
+    m->tasks = xgrow(m->tasks, &m->task_capacity, m->task_count + 1, sizeof *m->tasks);
+    m->tasks[m->task_count++] = *g;
+    uint32_t node = g->node;
+    *g = (struct group){ 0 }; /* the task has it all */
+    free(taken);
+    free(half->group.members);
+    free(half->from);
+    free(half->is_part);
+    return node;
+}
+
+/* What lies in the row's plane; the rest goes to the halves, in front and behind. */
+static void sort_out(struct maker *m, const struct group *g, uint32_t number,
+                     struct feudal_node *node, struct half halves[2])
 {
     const struct row *row = &g->rows[number];
     const struct feudal_source *source = m->source;
-    struct feudal_bunch on = { m->feudal->polygon_count, 0 };
-    struct half front;
-    struct half back;
-    uint32_t first = FEUDAL_NONE;
-    half_begin(&front, g);
-    half_begin(&back, g);
     for (uint32_t i = 0; i < g->count; i++) {
         uint32_t parts[2];
         uint32_t polygon = g->members[i].polygon;
@@ -324,31 +402,49 @@ static void divide(struct maker *m, struct group *g, uint32_t number)
         }
         switch ((enum split_side)row->sides[i]) {
         case SPLIT_ON:
-            first = g->members[i].row == number && first == FEUDAL_NONE ? polygon : first;
-            put_polygon(m, &on, polygon);
+            if (g->members[i].row == number && node->polygon == FEUDAL_NONE) {
+                node->polygon = polygon;
+            }
+            put_polygon(m, &node->on, polygon);
             break;
         case SPLIT_FRONT:
-            half_add(&front, polygon, i, false);
+            half_add(&halves[0], polygon, i, false);
             break;
         case SPLIT_BACK:
-            half_add(&back, polygon, i, false);
+            half_add(&halves[1], polygon, i, false);
             break;
         case SPLIT_ACROSS:
             source->split(source->context, polygon, row->plane, parts);
-            half_add(&front, parts[0], i, true);
-            half_add(&back, parts[1], i, true);
+            half_add(&halves[0], parts[0], i, true);
+            half_add(&halves[1], parts[1], i, true);
             m->waiting += parts[0] != FEUDAL_NONE && parts[1] != FEUDAL_NONE;
             break;
         }
     }
-    uint32_t behind = half_end(m, &back, g);
-    uint32_t before = half_end(m, &front, g);
-    struct feudal_node *node = &m->feudal->nodes[g->node];
-    node->plane = row->plane;
-    node->polygon = first;
-    node->on = on;
-    node->front = before;
-    node->back = behind;
+}
+
+/* Makes the row's plane the switch; what is left goes to its two sides. */
+static void divide(struct maker *m, struct group *g, uint32_t number)
+{
+    struct feudal_node node = m->feudal->nodes[g->node];
+    uint32_t place = g->node;
+    uint32_t children[2];
+    struct half halves[2]; /* in front, behind */
+    node.plane = g->rows[number].plane;
+    node.on.first = m->feudal->polygon_count;
+    half_begin(&halves[0], g);
+    half_begin(&halves[1], g);
+    sort_out(m, g, number, &node, halves);
+    int larger = halves[0].group.count < halves[1].group.count;
+    children[1 - larger] = half_end(m, &halves[1 - larger], g);
+    if (halves[larger].group.count > g->count / 2) {
+        children[larger] = half_take_over(m, &halves[larger], g);
+    } else {
+        children[larger] = half_end(m, &halves[larger], g);
+    }
+    node.front = children[0];
+    node.back = children[1];
+    m->feudal->nodes[place] = node;
     g->left = 0;
 }
 
@@ -453,11 +549,9 @@ static void group_free(struct maker *m, struct group *g)
 }
 
 void feudal_make(struct feudal *feudal, const struct feudal_source *source,
-                 const uint32_t *polygons, uint32_t count, bool dynamic,
-                 struct progress *progress)
+                 const uint32_t *polygons, uint32_t count, bool dynamic, struct progress *progress)
 {
-    struct maker m = { .feudal = feudal, .source = source, .progress = progress,
-                       .waiting = count };
+    struct maker m = { .feudal = feudal, .source = source, .progress = progress, .waiting = count };
     struct group all = { .dynamic = dynamic, .count = count, .left = count };
     *feudal = (struct feudal){ 0 };
     all.node = add_node(feudal);

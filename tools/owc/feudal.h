@@ -46,10 +46,10 @@ struct feudal_level {
 struct feudal_node {
     size_t first_level;
     uint32_t level_count;
-    uint32_t plane;   /* the switch's, or FEUDAL_NONE: there is no switch */
-    uint32_t polygon; /* whose plane it is */
+    uint32_t plane;         /* the switch's, or FEUDAL_NONE: there is no switch */
+    uint32_t polygon;       /* whose plane it is */
     struct feudal_bunch on; /* polygons in the switch's plane */
-    uint32_t front;   /* connecting nodes, or FEUDAL_NONE: nothing is there */
+    uint32_t front;         /* connecting nodes, or FEUDAL_NONE: nothing is there */
     uint32_t back;
 };
 
@@ -73,8 +73,7 @@ struct feudal {
  * otherwise all rows come first. progress may be NULL.
  */
 void feudal_make(struct feudal *feudal, const struct feudal_source *source,
-                 const uint32_t *polygons, uint32_t count, bool dynamic,
-                 struct progress *progress);
+                 const uint32_t *polygons, uint32_t count, bool dynamic, struct progress *progress);
 void feudal_free(struct feudal *feudal);
 
 #endif

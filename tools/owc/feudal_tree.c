@@ -152,8 +152,7 @@ static void add_connecting(struct converter *c, const struct place *place)
 void feudal_to_tree(struct tree *tree, const struct feudal *feudal, const uint32_t *rank,
                     bool two_sided)
 {
-    struct converter c = { .tree = tree, .feudal = feudal, .rank = rank,
-                           .two_sided = two_sided };
+    struct converter c = { .tree = tree, .feudal = feudal, .rank = rank, .two_sided = two_sided };
     *tree = (struct tree){ .root = OW_ITEM_NONE, .relations = feudal->relations };
     push(&c, 0, MESH_NONE, false);
     while (c.place_count > 0) {

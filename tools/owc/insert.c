@@ -45,8 +45,9 @@ bool insertion_begin(struct insertion *insertion, const struct blob_file *file,
     const struct ow_tree *tree = &file->tree;
     *insertion = (struct insertion){ .file = file };
     if (!(tree->flags & OW_TREE_SWITCH_ONLY) || !has_plain_nodes(tree)) {
-        return problem_set(problem, 0, "sequences order its faces: only trees of --method bsp or "
-                                       "online can be added to, compile all models together");
+        return problem_set(problem, 0,
+                           "sequences order its faces: only trees of --method bsp or "
+                           "online can be added to, compile all models together");
     }
     insertion->record_at = xalloc(tree->polygon_count, sizeof *insertion->record_at);
     insertion->plane_of = xalloc(tree->node_count, sizeof *insertion->plane_of);
@@ -80,8 +81,7 @@ static bool lies_in_cube(const struct lattice *lattice, const double at[3])
 }
 
 /* The tree's colours come first, so that its records keep their numbers. */
-static uint16_t add_colour(struct model *model, uint32_t *colours, uint32_t *count,
-                           uint32_t colour)
+static uint16_t add_colour(struct model *model, uint32_t *colours, uint32_t *count, uint32_t colour)
 {
     uint32_t nearest = 0;
     int64_t least = INT64_MAX;
@@ -125,8 +125,7 @@ static void add_colours(const struct ow_tree *tree, struct model *model)
     model->colour_capacity = OW_MAX_COLOURS;
 }
 
-bool insertion_take(const struct insertion *insertion, struct model *model,
-                    struct problem *problem)
+bool insertion_take(const struct insertion *insertion, struct model *model, struct problem *problem)
 {
     const struct lattice *lattice = &insertion->file->lattice;
     for (size_t i = 0; i < model->polygon_count; i++) {
@@ -150,7 +149,7 @@ bool insertion_take(const struct insertion *insertion, struct model *model,
 struct joiner {
     const struct ow_tree *tree;
     const struct insertion *insertion;
-    struct mesh *mesh;  /* the joined one */
+    struct mesh *mesh;   /* the joined one */
     struct map64 points; /* lattice coordinates to point numbers */
     size_t point_capacity;
     size_t corner_capacity;
@@ -160,12 +159,12 @@ struct joiner {
 
 static uint32_t number_point(struct joiner *j, const int16_t at[3])
 {
-    uint64_t key = (uint64_t)(uint16_t)at[0] << 32 | (uint64_t)(uint16_t)at[1] << 16 |
-                   (uint16_t)at[2];
+    uint64_t key =
+        (uint64_t)(uint16_t)at[0] << 32 | (uint64_t)(uint16_t)at[1] << 16 | (uint16_t)at[2];
     uint32_t point = map64_put(&j->points, key, j->mesh->point_count);
     if (point == j->mesh->point_count) {
-        j->mesh->points = xgrow(j->mesh->points, &j->point_capacity, point + 1u,
-                                sizeof *j->mesh->points);
+        j->mesh->points =
+            xgrow(j->mesh->points, &j->point_capacity, point + 1u, sizeof *j->mesh->points);
         memcpy(j->mesh->points[point], at, sizeof j->mesh->points[0]);
         j->mesh->point_count++;
     }
@@ -181,8 +180,8 @@ static void put_corner(struct joiner *j, const int16_t at[3], uint8_t mark, cons
     mesh->corners[corner] = number_point(j, at);
     mesh->marks[corner] = mark;
     if (normal != NULL) {
-        mesh->normals = xgrow(mesh->normals, &j->normal_capacity, corner + 1,
-                              sizeof *mesh->normals);
+        mesh->normals =
+            xgrow(mesh->normals, &j->normal_capacity, corner + 1, sizeof *mesh->normals);
         memcpy(mesh->normals[corner], normal, sizeof mesh->normals[0]);
     }
 }
@@ -193,8 +192,8 @@ static void read_corner(struct joiner *j, uint32_t vertex, uint8_t mark)
     int16_t at[3];
     float normal[3];
     for (uint32_t k = 0; k < 3; k++) {
-        at[k] = (int16_t)ow_read_i16(tree->bytes,
-                                     tree->vertices_at + vertex * OW_VERTEX_BYTES + 2 * k);
+        at[k] =
+            (int16_t)ow_read_i16(tree->bytes, tree->vertices_at + vertex * OW_VERTEX_BYTES + 2 * k);
     }
     if (!(tree->flags & OW_TREE_NORMALS)) {
         put_corner(j, at, mark, NULL);
@@ -229,9 +228,9 @@ static void read_record(struct joiner *j, uint32_t number, struct mesh_polygon *
         uint32_t mark = (look & OW_POLYGON_MARKED)
                             ? ow_read_u16(bytes, marks_at + i / 16 * 2) >> i % 16 & 1
                             : 0;
-        read_corner(j, wide_corner == 4 ? ow_read_u32(bytes, corner_at)
-                                        : ow_read_u16(bytes, corner_at),
-                    (uint8_t)mark);
+        read_corner(
+            j, wide_corner == 4 ? ow_read_u32(bytes, corner_at) : ow_read_u16(bytes, corner_at),
+            (uint8_t)mark);
     }
 }
 

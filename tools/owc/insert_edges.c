@@ -13,7 +13,7 @@
 #include "ow_read.h"
 #include "tools/common/xalloc.h"
 
-enum { CELL = 256 }; /* lattice steps */
+#define CELL 256.0 /* lattice steps */
 
 /* Rounding to the lattice moves a point by at most half a cube's diagonal, here squared. */
 #define ROUNDING 0.7501
@@ -26,10 +26,10 @@ struct found {
 struct edges {
     struct mesh *mesh;
     const struct ow_tree *tree;
-    struct map64 cells; /* to the first vertex in each */
-    uint32_t *next;     /* the next vertex in the same cell */
+    struct map64 cells;  /* to the first vertex in each */
+    uint32_t *next;      /* the next vertex in the same cell */
     struct map64 points; /* lattice coordinates to the mesh's point numbers */
-    bool *is_old;       /* points of the mesh that are the tree's too */
+    bool *is_old;        /* points of the mesh that are the tree's too */
     size_t old_capacity;
     size_t point_capacity;
     struct found *found;
@@ -55,7 +55,7 @@ static uint64_t point_key(const int16_t at[3])
 
 static int cell_of(double at)
 {
-    return (int)floor(at / CELL) + 32768 / CELL + 1;
+    return (int)floor((at + 32768) / CELL) + 1;
 }
 
 static uint64_t cell_key(const int cell[3])
@@ -110,8 +110,8 @@ static uint32_t point_at(struct edges *e, const int16_t at[3])
     struct mesh *mesh = e->mesh;
     uint32_t point = map64_put(&e->points, point_key(at), mesh->point_count);
     if (point == mesh->point_count) {
-        mesh->points = xgrow(mesh->points, &e->point_capacity, (size_t)point + 1,
-                             sizeof *mesh->points);
+        mesh->points =
+            xgrow(mesh->points, &e->point_capacity, (size_t)point + 1, sizeof *mesh->points);
         memcpy(mesh->points[point], at, sizeof mesh->points[0]);
         mesh->point_count++;
         mark_old(e, point, true);
@@ -166,8 +166,8 @@ static int compare_found(const void *left, const void *right)
 }
 
 /* The cells about a place on the edge, as far as the next place is. */
-static void search_about(struct edges *e, const double at[3], const double p[3],
-                         const double q[3], uint32_t ends[2], size_t *count)
+static void search_about(struct edges *e, const double at[3], const double p[3], const double q[3],
+                         uint32_t ends[2], size_t *count)
 {
     int low[3];
     int high[3];
@@ -245,8 +245,8 @@ static void put_edge(struct edges *e, size_t from, size_t to)
     for (size_t i = 0; i < count; i++) {
         float between[3] = { 0, 0, 0 };
         for (int k = 0; normal != NULL && k < 3; k++) {
-            between[k] = (float)(normal[k] + e->found[i].share *
-                                                 ((double)mesh->normals[to][k] - normal[k]));
+            between[k] =
+                (float)(normal[k] + e->found[i].share * ((double)mesh->normals[to][k] - normal[k]));
         }
         put_corner(e, e->found[i].point, mesh->marks[from], normal != NULL ? between : NULL);
     }
@@ -262,8 +262,7 @@ void insert_edges(struct mesh *mesh, const struct ow_tree *tree)
         struct mesh_polygon *polygon = &mesh->polygons[i];
         size_t first = e.out.corner_count;
         for (uint32_t k = 0; k < polygon->count; k++) {
-            put_edge(&e, polygon->first + k,
-                     polygon->first + (k + 1 < polygon->count ? k + 1 : 0));
+            put_edge(&e, polygon->first + k, polygon->first + (k + 1 < polygon->count ? k + 1 : 0));
         }
         polygon->first = first;
         polygon->count = (uint32_t)(e.out.corner_count - first);

@@ -22,8 +22,8 @@ static uint32_t number_of(const struct ow_tree *tree, uint32_t child_at)
         struct blob_node node = blob_node_at(tree, at);
         for (uint32_t i = 0; node.is_switch && i < 2; i++) {
             uint32_t item_at = node.children_at + 4 * i;
-            number += item_at <= child_at &&
-                      switch_at(tree, ow_read_u32(tree->bytes, item_at)) == 0;
+            number +=
+                item_at <= child_at && switch_at(tree, ow_read_u32(tree->bytes, item_at)) == 0;
         }
         at = node.end_at;
     }

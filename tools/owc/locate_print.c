@@ -42,8 +42,8 @@ static void print_side(FILE *out, const struct lattice *lattice, const struct lo
         d -= side->n[k] * lattice->origin[k];
     }
     length = sqrt(length);
-    fprintf(out, "%s %.9g,%.9g,%.9g,%.9g\n", side->front ? "front " : "behind",
-            side->n[0] / length, side->n[1] / length, side->n[2] / length, d / length);
+    fprintf(out, "%s %.9g,%.9g,%.9g,%.9g\n", side->front ? "front " : "behind", side->n[0] / length,
+            side->n[1] / length, side->n[2] / length, d / length);
 }
 
 void locate_print(const char *path, const double point[3])
@@ -58,8 +58,9 @@ void locate_print(const char *path, const double point[3])
     to_lattice(&file.lattice, point, at);
     struct locate_side *sides = xalloc(file.tree.depth, sizeof *sides);
     if (locate_point(&file.tree, at, sides, &region) != OW_OK) {
-        fail(FAIL_INPUT, path, 0, "sequences order its faces, so that its switches bound no "
-                                  "regions: compile with --method bsp or online");
+        fail(FAIL_INPUT, path, 0,
+             "sequences order its faces, so that its switches bound no "
+             "regions: compile with --method bsp or online");
     }
     struct outfile *out = outfile_open("-");
     FILE *stream = outfile_stream(out);

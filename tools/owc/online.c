@@ -48,8 +48,8 @@ void online_add_face(struct online *online, uint32_t number, uint32_t piece)
 {
     struct online_node *node = &online->nodes[number];
     uint32_t face = online->face_count++;
-    online->faces = xgrow(online->faces, &online->face_capacity, online->face_count,
-                          sizeof *online->faces);
+    online->faces =
+        xgrow(online->faces, &online->face_capacity, online->face_count, sizeof *online->faces);
     online->faces[face] = (struct online_face){ piece, MESH_NONE };
     if (node->last == MESH_NONE) {
         node->first = face;

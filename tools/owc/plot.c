@@ -16,15 +16,15 @@ enum { COLUMN = 30, ROW = 46, MARGIN = 30, TOP = 56, RADIUS = 10 };
 
 struct knot {
     bool is_switch;
-    bool open;       /* its children are drawn */
-    uint32_t depth;  /* the root's is 0 */
-    uint32_t faces;  /* in a sequence, or in a switch's plane */
-    uint32_t dots;   /* children of a switch that are one face */
-    uint32_t first;  /* child node */
-    uint32_t count;  /* child nodes */
+    bool open;            /* its children are drawn */
+    uint32_t depth;       /* the root's is 0 */
+    uint32_t faces;       /* in a sequence, or in a switch's plane */
+    uint32_t dots;        /* children of a switch that are one face */
+    uint32_t first;       /* child node */
+    uint32_t count;       /* child nodes */
     uint32_t nodes_below; /* itself included */
     uint32_t faces_below;
-    uint32_t levels;      /* of the subtree */
+    uint32_t levels; /* of the subtree */
     double x;
 };
 
@@ -177,8 +177,8 @@ static void draw_closed(FILE *out, const struct knot *knot, double x, double y)
     fprintf(out,
             "<path class=\"more\" d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\"><title>%" PRIu32
             " nodes in %" PRIu32 " levels, %" PRIu32 " faces</title></path>\n",
-            x, y - RADIUS, x - 13, y + RADIUS, x + 13, y + RADIUS, knot->nodes_below,
-            knot->levels, knot->faces_below);
+            x, y - RADIUS, x - 13, y + RADIUS, x + 13, y + RADIUS, knot->nodes_below, knot->levels,
+            knot->faces_below);
     draw_text(out, x, y + 8, knot->nodes_below);
 }
 

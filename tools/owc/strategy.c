@@ -32,8 +32,8 @@ static void build_bsp(struct tree *tree, struct arrangement *arrangement, struct
 }
 
 void strategy_build(struct tree *tree, struct arrangement *arrangement, struct planes *planes,
-                    struct pieces *pieces, const struct mesh *mesh,
-                    const struct strategy *strategy, struct progress *progress)
+                    struct pieces *pieces, const struct mesh *mesh, const struct strategy *strategy,
+                    struct progress *progress)
 {
     struct feudal_options feudal = { strategy->method == METHOD_FEUDAL_DYNAMIC, strategy->seed,
                                      strategy->two_sided };

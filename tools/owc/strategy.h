@@ -38,7 +38,7 @@ struct strategy {
 
 /* Builds the tree of all pieces; cuts them as needed. progress may be NULL. */
 void strategy_build(struct tree *tree, struct arrangement *arrangement, struct planes *planes,
-                    struct pieces *pieces, const struct mesh *mesh,
-                    const struct strategy *strategy, struct progress *progress);
+                    struct pieces *pieces, const struct mesh *mesh, const struct strategy *strategy,
+                    struct progress *progress);
 
 #endif

@@ -217,8 +217,12 @@ install: programs ## owgen, owc and owsim into DESTDIR/prefix/bin
 clean: ## remove what was built, packages fetched for other machines excepted
 	rm -rf $(O)/obj $(O)/tests $(O)/*.a $(O)/owgen $(O)/owc $(O)/owsim
 
-.PHONY: bench size vm-check run image flash
-bench size vm-check run image flash:
+.PHONY: bench
+bench: programs ## the orders, shades and threads side by side (minutes)
+	@scripts/bench
+
+.PHONY: size vm-check run image flash
+size vm-check run image flash:
 	@echo "make: $@ is not there yet" >&2; exit 2
 ifneq ($(BOARD),sim)
 all programs: no-board

@@ -237,6 +237,38 @@ static void saved_conflicts_count(void **state)
     scene_end(&s);
 }
 
+/*
+ * [FKN80]'s three polygons each of which lies over the next one: five in the tree
+ * if the root is well chosen. Just the first makes six of them.
+ */
+static void three_in_a_ring_become_five(void **state)
+{
+    (void)state;
+    struct model model = { 0 };
+    struct compile_options options = models_options();
+    for (int i = 0; i < 3; i++) {
+        double along[2] = { cos(2.0943951 * i), sin(2.0943951 * i) };
+        uint32_t v[4];
+        for (int k = 0; k < 4; k++) {
+            double far = k == 1 || k == 2 ? 3 : -3;
+            double side = k > 1 ? 1.2 : 0.8;
+            v[k] = models_vertex(&model, far * along[0] + side * along[1],
+                                 far * along[1] - side * along[0], far / 3);
+        }
+        models_polygon(&model, v, 4);
+    }
+    options.sides = SIDES_ONE;
+    for (int i = 0; i < 4; i++) {
+        static const enum method methods[] = { METHOD_BSP, METHOD_FEUDAL_STATIC,
+                                               METHOD_FEUDAL_DYNAMIC, METHOD_BSP };
+        uint32_t switches;
+        options.method = methods[i];
+        options.select = i == 0 ? BSP_EXHAUSTIVE : BSP_FIRST;
+        assert_int_equal(splits_with(&model, &options, &switches), i < 3 ? 2 : 3);
+    }
+    import_free(&model);
+}
+
 /* ---- the location problem ---- */
 
 /* x = 0; in front of it y = 0, and behind that z = 0; behind x = 0 a face. */
@@ -341,10 +373,15 @@ static void numbers_are_regions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_are_read),       cmocka_unit_test(planes_come_to_the_lattice),
-        cmocka_unit_test(gaps_are_found),        cmocka_unit_test(clusters_are_kept_apart),
-        cmocka_unit_test(conflicts_are_counted), cmocka_unit_test(saved_conflicts_count),
-        cmocka_unit_test(regions_are_numbered),  cmocka_unit_test(numbers_are_regions),
+        cmocka_unit_test(planes_are_read),
+        cmocka_unit_test(planes_come_to_the_lattice),
+        cmocka_unit_test(gaps_are_found),
+        cmocka_unit_test(clusters_are_kept_apart),
+        cmocka_unit_test(conflicts_are_counted),
+        cmocka_unit_test(saved_conflicts_count),
+        cmocka_unit_test(three_in_a_ring_become_five),
+        cmocka_unit_test(regions_are_numbered),
+        cmocka_unit_test(numbers_are_regions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

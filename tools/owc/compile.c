@@ -41,6 +41,7 @@ static void build_tree(struct compiler *c)
                                  .candidates = options->candidates,
                                  .conflict_weight = options->conflict_weight,
                                  .seed = options->seed,
+                                 .tolerance_q8 = options->tolerance_q8,
                                  .dividing = options->dividing,
                                  .dividing_axis = options->dividing_axis,
                                  .into = options->into,
@@ -106,7 +107,8 @@ static bool write_checked(struct compiler *c, struct blob *blob, const struct mo
                                 .colour_count = (uint32_t)model->colour_count,
                                 .tolerance_q8 = c->options->tolerance_q8,
                                 .two_sided = c->two_sided,
-                                .switch_only = tree_is_switch_only(&c->tree),
+                                .switch_only = c->options->method != METHOD_OBSTRUCTION &&
+                                               tree_is_switch_only(&c->tree),
                                 .keep_ids = c->options->keep_ids };
     if (!blob_write(blob, &parts, problem)) {
         return false;
@@ -158,6 +160,13 @@ static bool make_mesh(struct compiler *c, const struct model *model, struct prob
     return true;
 }
 
+/* Obstruction measures its tolerance itself: its planes cut as finely as can be. */
+static uint32_t plane_tolerance(const struct compile_options *options)
+{
+    bool fine = options->method == METHOD_OBSTRUCTION && options->tolerance_q8 > 256;
+    return fine ? 256 : options->tolerance_q8;
+}
+
 static bool run_stages(struct compiler *c, struct blob *blob, struct compile_stats *stats,
                        const struct model *model, struct problem *problem)
 {
@@ -173,7 +182,7 @@ static bool run_stages(struct compiler *c, struct blob *blob, struct compile_sta
     }
     c->two_sided = c->options->sides == SIDES_TWO ||
                    (c->options->sides == SIDES_AUTO && !c->mesh.closed);
-    plane_group(&c->planes, &c->mesh, model, c->options->tolerance_q8);
+    plane_group(&c->planes, &c->mesh, model, plane_tolerance(c->options));
     if (c->options->into != NULL) {
         insertion_join(c->options->into, &c->mesh, &c->planes);
     }

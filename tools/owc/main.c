@@ -56,12 +56,16 @@ struct command {
     bool tolerance_given;
 };
 
+#define DEFAULT_TOLERANCE 0.0005 /* with METHOD_OBSTRUCTION; with the papers' methods 0 */
+
 static const char notes[] =
     "MODEL is any file that assimp reads. FILE '-' is standard output.\n"
     "--tolerance 0 is one lattice step, 1/65534 of the longest side, the finest distance there\n"
     "is; --strict counts only what is exactly on a plane.\n"
     "--planes-file has a line a,b,c,d for each plane ax + by + cz + d = 0, in model units; with\n"
     "--dividing axis, planes along the axes are found at gaps. Both divide before polygons do.\n"
+    "--insert adds polygons one after the other to a tree of --method bsp or online, with the\n"
+    "tolerance, sides and kinds of records that the tree has.\n"
     "--locate says in which convex region of a tree of switches a point lies.\n"
     "The method obstruction is not there yet; until it is, bsp is the default.\n";
 
@@ -113,9 +117,6 @@ static void check_usage(const struct option_table *table, const struct command *
     }
     if (c->output == NULL) {
         options_wrong(table, "name the output by -o FILE");
-    }
-    if (c->method == METHOD_OBSTRUCTION) {
-        options_wrong(table, "--method %s is not there yet, use bsp", methods[c->method]);
     }
     check_bsp_usage(table, c);
     if (c->strict && c->tolerance_given) {
@@ -189,7 +190,11 @@ static uint32_t tolerance_q8(const struct command *c)
     if (c->strict) {
         return 0;
     }
-    double steps = fmax(1, c->tolerance * (2 * OW_LATTICE_MAX));
+    double share = c->tolerance;
+    if (!c->tolerance_given && c->method == METHOD_OBSTRUCTION) {
+        share = DEFAULT_TOLERANCE;
+    }
+    double steps = fmax(1, share * (2 * OW_LATTICE_MAX));
     return (uint32_t)floor(steps * 256 + 0.5);
 }
 
@@ -240,6 +245,10 @@ static void compile(const struct command *c, const char *name, struct model *mod
         fail(FAIL_INPUT, name, problem.line, "%s", problem.text);
     }
     check_report(&stats.check, name);
+    if (options->into != NULL && options->sides == SIDES_ONE && !stats.check.closed) {
+        warn_line(name, 0, "is open, but the tree is one-sided: backs are not drawn, compile the "
+                           "tree with --sides two");
+    }
     warn_about(name, model);
     if (explained != NULL) {
         outfile_commit(explained);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "feudal_tree.h"
+#include "obstruction.h"
 #include "online.h"
 #include "tools/common/xalloc.h"
 
@@ -37,6 +38,8 @@ void strategy_build(struct tree *tree, struct arrangement *arrangement, struct p
 {
     struct feudal_options feudal = { strategy->method == METHOD_FEUDAL_DYNAMIC, strategy->seed,
                                      strategy->two_sided };
+    struct obstruction_options obstruction = { strategy->seed, strategy->tolerance_q8,
+                                               strategy->two_sided };
     if (strategy->into != NULL) {
         insertion_build(tree, strategy->into, arrangement, pieces, strategy->two_sided, progress);
         return;
@@ -49,7 +52,9 @@ void strategy_build(struct tree *tree, struct arrangement *arrangement, struct p
     case METHOD_ONLINE:
         online_build(tree, arrangement, pieces, strategy->two_sided, progress);
         break;
-    case METHOD_OBSTRUCTION: /* main.c does not ask for it yet */
+    case METHOD_OBSTRUCTION:
+        obstruction_build(tree, planes, mesh, arrangement, pieces, &obstruction, progress);
+        break;
     case METHOD_BSP:
         build_bsp(tree, arrangement, planes, pieces, mesh, strategy, progress);
         break;

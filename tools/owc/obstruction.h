@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: 0BSD */
+/*
+ * The obstruction tree: sequences of the relation's strongly connected
+ * components, hidden before hiding, and switches only inside components of
+ * several faces.
+ */
+#ifndef OWC_OBSTRUCTION_H
+#define OWC_OBSTRUCTION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "arrangement.h"
+#include "mesh.h"
+#include "pieces.h"
+#include "plane.h"
+#include "progress.h"
+#include "tree.h"
+
+struct obstruction_options {
+    uint64_t seed;
+    uint32_t tolerance_q8; /* of the relation; that of the planes may be less */
+    bool two_sided; /* each piece's back is a face too */
+};
+
+/*
+ * Builds the tree of all pieces; cuts them and adds planes as needed. planes
+ * are the arrangement's. progress may be NULL.
+ */
+void obstruction_build(struct tree *tree, struct planes *planes, const struct mesh *mesh,
+                       struct arrangement *arrangement, struct pieces *pieces,
+                       const struct obstruction_options *options, struct progress *progress);
+
+#endif

@@ -182,7 +182,7 @@ is "compare: pictures" test "$(cd "$dir/diff" && echo f-*-* | sed 's/\.[a-z]*//g
     "f-0001-actual f-0001-diff f-0002-actual"
 
 keys=order,shade,format,width,height,frames,ms_per_frame_min,ms_per_frame_median
-keys+=,polygons_visited,polygons_painted,pixels_written,pixels_background,spans,crc32,
+keys+=,polygons_visited,polygons_painted,pixels_written,pixels_background,spans,crc32,ms_memset_median,
 works "bench: runs" "$tree" --orbit 2 --size 40x30 --bench --passes 2
 is "bench: one line" test "$(wc -l <"$dir/stdout")" = 1
 is "bench: its keys" test "$(grep -oE '"[a-z_0-9]+":' "$dir/stdout" | tr -d '":' | tr '\n' ,)" = \

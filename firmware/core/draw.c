@@ -63,7 +63,8 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     if (!workspace_fits(workspace, tree, view) || !ow_look_fits(look, workspace)) {
         return OW_ARGUMENT;
     }
-    if (look->budget > 0 && look->order != OW_FRONT_TO_BACK) {
+    if ((look->budget > 0 && look->order != OW_FRONT_TO_BACK) ||
+        (look->coverage && look->backdrop != NULL)) {
         return OW_ARGUMENT;
     }
     if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
@@ -119,6 +120,16 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     surface->words_in_line = (surface->width + 31) / 32;
     surface->shader = &frame->shader;
     surface->gradient = ow_shade_is_smooth(frame->shader.shade) ? &frame->gradient : NULL;
+    surface->changes = NULL;
+    if (target->changes != NULL && target->changes->known) {
+        if (kind == &ow_surface_dynamic) {
+            surface->changes = target->changes;
+        } else { /* it writes pixels more than once */
+            for (uint32_t i = 0; i < target->line_count; i++) {
+                ow_changes_mark(target->changes, target->first_line + i, 0, surface->width);
+            }
+        }
+    }
     ow_surface_choose_write(surface, frame->look);
 }
 
@@ -156,7 +167,9 @@ static bool target_fits(const struct ow_frame *frame, const struct ow_target *ta
     return target->line_count > 0 && target->line_count <= frame->workspace->lines &&
            end_line <= frame->view->height && target->stride % 4 == 0 &&
            target->stride >= ow_row_bytes(target->format, frame->view->width) &&
-           (uintptr_t)target->pixels % 4 == 0;
+           (uintptr_t)target->pixels % 4 == 0 &&
+           (target->changes == NULL || (target->changes->width == frame->view->width &&
+                                        target->changes->height == frame->view->height));
 }
 
 enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_target *target,

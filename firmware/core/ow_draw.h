@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "ow_changes.h"
 #include "ow_fixed.h"
 #include "ow_pixel.h"
 #include "ow_status.h"
@@ -44,6 +45,27 @@ struct ow_light {
     uint16_t intensity_q8;    /* 256: a face square to the light shows its colour in full */
     bool in_model_space;      /* false: the light moves with the viewer */
 };
+
+/*
+ * What fills the pixels that the model leaves unlit: a gradient, a picture, a
+ * camera's frame. fill writes pixels first .. end-1 of the screen's line line;
+ * row is the line's first pixel. Front to back asks for each pixel once.
+ */
+struct ow_backdrop {
+    void (*fill)(void *context, const struct ow_pixel_format *format, uint8_t *row, uint32_t line,
+                 uint32_t first, uint32_t end);
+    void *context;
+};
+
+/* A backdrop that goes from one colour, 0x00RRGGBB, to another, from the top line down. */
+struct ow_gradient_backdrop {
+    uint32_t top;
+    uint32_t bottom;
+    uint16_t height; /* of the view */
+    bool dither;
+};
+
+struct ow_backdrop ow_backdrop_of_gradient(struct ow_gradient_backdrop *gradient);
 
 /* How a frame is to look. */
 struct ow_look {
@@ -84,6 +106,7 @@ struct ow_look {
      */
     bool caps;
     uint32_t cap;
+    const struct ow_backdrop *backdrop; /* instead of background; NULL: none; not with coverage */
 };
 
 /* Where the band's pixels go. */
@@ -93,6 +116,12 @@ struct ow_target {
     uint16_t first_line;
     uint16_t line_count; /* first_line + line_count <= the view's height */
     const struct ow_pixel_format *format;
+    /*
+     * NULL: nobody asks. Otherwise begun for this frame and as large as the view: the pixels
+     * that differ from what the target held are marked. Back to front and coverage, which
+     * write pixels more than once, mark all.
+     */
+    struct ow_changes *changes;
 };
 
 /* Counted over a frame. */

@@ -23,6 +23,8 @@ struct ow_samples {
 
 struct ow_surface {
     const struct ow_target *target;
+    const struct ow_backdrop *backdrop; /* NULL: one colour */
+    struct ow_changes *changes; /* to be marked at writing; NULL: nobody asks, or all were marked */
     uint32_t width;
     uint32_t rgb;    /* of the face being scanned; the material's if it is smooth */
     uint32_t colour; /* the same packed, if it is not smooth */
@@ -30,6 +32,8 @@ struct ow_surface {
     struct ow_gradient *gradient; /* of the face being scanned; NULL: it has one colour */
     /* Writes pixels first .. end-1 of a line; NULL: a fill with the colour does. */
     void (*write)(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
+    /* What writes beneath the comparison with what was there; likewise. */
+    void (*write_inner)(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
     bool dither;
     uint32_t background; /* 0x00RRGGBB */
     uint32_t pixels_written;

@@ -54,14 +54,55 @@ static void write_dithered(struct ow_surface *surface, uint32_t line, uint32_t f
                    surface->rgb);
 }
 
+static void write_backdrop(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
+{
+    const struct ow_backdrop *backdrop = surface->backdrop;
+    backdrop->fill(backdrop->context, surface->target->format,
+                   ow_line_pixels(surface->target, line), line, first, end);
+}
+
+/* Writes, and marks the pixels that were something else before. */
+static void write_compared(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
+{
+    uint8_t *row = ow_line_pixels(surface->target, line);
+    const struct ow_pixel_format *format = surface->target->format;
+    uint32_t before[CHUNK];
+    while (first < end) {
+        uint32_t stop = end - first > CHUNK ? first + CHUNK : end;
+        for (uint32_t x = first; x < stop; x++) {
+            before[x - first] = format->get(row, x);
+        }
+        if (surface->write_inner != NULL) {
+            surface->write_inner(surface, line, first, stop);
+        } else {
+            format->fill(row, first, stop, surface->colour);
+        }
+        for (uint32_t x = first; x < stop; x++) {
+            if (((format->get(row, x) ^ before[x - first]) & format->used) != 0) {
+                ow_changes_mark(surface->changes, line, x, x + 1);
+            }
+        }
+        first = stop;
+    }
+}
+
+static void set_write(struct ow_surface *surface,
+                      void (*write)(struct ow_surface *surface, uint32_t line, uint32_t first,
+                                    uint32_t end))
+{
+    surface->write_inner = write;
+    surface->write = surface->changes != NULL ? write_compared : write;
+}
+
 void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look)
 {
     surface->dither =
         look->dither && look->shade != OW_SHADE_ID && surface->target->format->dither != NULL;
     surface->background = look->background;
-    surface->write = surface->gradient != NULL ? write_smooth
-                     : surface->dither         ? write_dithered
-                                               : NULL;
+    surface->backdrop = look->backdrop;
+    set_write(surface, surface->gradient != NULL ? write_smooth
+                       : surface->dither         ? write_dithered
+                                                 : NULL);
 }
 
 void ow_surface_become_background(struct ow_surface *surface, uint32_t packed)
@@ -69,14 +110,18 @@ void ow_surface_become_background(struct ow_surface *surface, uint32_t packed)
     surface->rgb = surface->background;
     surface->colour = packed;
     surface->gradient = NULL;
-    surface->write = surface->dither ? write_dithered : NULL;
+    set_write(surface, surface->backdrop != NULL ? write_backdrop
+                       : surface->dither         ? write_dithered
+                                                 : NULL);
 }
 
 void ow_write_background(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end,
                          uint32_t packed)
 {
     uint8_t *row = ow_line_pixels(surface->target, line);
-    if (surface->dither) {
+    if (surface->backdrop != NULL) {
+        write_backdrop(surface, line, first, end);
+    } else if (surface->dither) {
         ow_dither_fill(surface->target->format, row, line, first, end, surface->background);
     } else {
         surface->target->format->fill(row, first, end, packed);

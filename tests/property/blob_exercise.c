@@ -85,7 +85,7 @@ static void draw_bands(const struct ow_tree *tree, const struct ow_view *view,
     for (uint16_t first = 0; first < HEIGHT; first = (uint16_t)(first + BAND)) {
         uint16_t lines = (uint16_t)(HEIGHT - first < BAND ? HEIGHT - first : BAND);
         uint8_t *pixels = block_of((size_t)stride * lines);
-        struct ow_target target = { pixels, stride, first, lines, format };
+        struct ow_target target = { pixels, stride, first, lines, format, NULL };
         struct ow_stats stats;
         enum ow_status status = ow_draw(tree, view, look, &target, &workspace, &stats);
         insist(status == OW_OK || status == OW_CAPACITY || status == OW_SIDES, "drawing's status");

@@ -110,7 +110,7 @@ static enum ow_status draw(const struct cut_scene *scene, const struct ow_view *
                             .ambient_q8 = 256,
                             .caps = caps,
                             .cap = CAP };
-    struct ow_target target = { (uint8_t *)pixels, SIZE * 4, 0, SIZE, &ow_format_xrgb8888 };
+    struct ow_target target = { (uint8_t *)pixels, SIZE * 4, 0, SIZE, &ow_format_xrgb8888, NULL };
     enum ow_status status = ow_draw(&scene->tree, view, &look, &target, &workspace, NULL);
     free(memory);
     return status;

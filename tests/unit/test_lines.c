@@ -144,8 +144,8 @@ static void draw(struct random_scene *scene, const struct ow_view *view, enum ow
     assert_int_equal(ow_draw_begin(&scene->tree, view, &look, &scene->workspace), OW_OK);
     for (uint32_t line = 0; line < HEIGHT; line += band_lines) {
         uint32_t lines = HEIGHT - line < band_lines ? HEIGHT - line : band_lines;
-        struct ow_target target = { pixels + line * STRIDE, STRIDE, (uint16_t)line, (uint16_t)lines,
-                                    format };
+        struct ow_target target = { pixels + line * STRIDE, STRIDE, (uint16_t)line,
+                                    (uint16_t)lines,        format, NULL };
         assert_int_equal(ow_draw_band(&scene->workspace, &target, NULL), OW_OK);
     }
 }

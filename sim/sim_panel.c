@@ -44,6 +44,7 @@ static uint32_t edge(const struct sim_panel *panel, uint32_t x)
 static void copy_rect(struct sim_panel *panel, const struct ow_panel_rect *rect,
                       const uint8_t *pixels, uint32_t stride, uint32_t lines)
 {
+    panel->pixels_sent += (uint64_t)rect->width * lines;
     uint32_t left = edge(panel, rect->x);
     uint32_t right = rect->x + rect->width == panel->width ? panel->row_bytes
                                                            : edge(panel, rect->x + rect->width);

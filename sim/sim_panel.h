@@ -56,10 +56,11 @@ struct sim_panel {
     uint16_t height;
     uint8_t *screen; /* what is seen: packed rows without padding */
     uint32_t row_bytes;
-    uint32_t calls;    /* of all functions */
-    uint32_t failed;   /* calls that failed because they were told to */
-    uint32_t frames;   /* whole frames shown */
-    const char *wrong; /* the first thing that its user did against the contract, or NULL */
+    uint32_t calls;       /* of all functions */
+    uint32_t failed;      /* calls that failed because they were told to */
+    uint32_t frames;      /* whole frames shown */
+    uint64_t pixels_sent; /* in rectangles shown or written */
+    const char *wrong;    /* the first thing that its user did against the contract, or NULL */
     /* Lending. */
     uint8_t *buffers[SIM_PANEL_BUFFERS];
     uint32_t shown_at[SIM_PANEL_BUFFERS]; /* frame that each holds, 0: unknown */

@@ -2,7 +2,10 @@
 /* Present: draws the view into memory that the panel lends, or band by band into the caller's. */
 #include "stages.h"
 
-enum { SLICES = 2 }; /* for each worker */
+enum {
+    SLICES = 2,    /* for each worker */
+    RECTS_MAX = 32 /* changed rectangles told to a panel; more: the whole frame */
+};
 
 static void probe(const struct ow_viewer *viewer, enum ow_probe point)
 {
@@ -19,6 +22,7 @@ struct slices {
     uint16_t first;
     uint16_t count;
     uint16_t lines; /* of a slice */
+    struct ow_changes *changes;
 };
 
 static int draw_slices(const struct slices *slices, uint32_t number)
@@ -39,6 +43,7 @@ static int draw_slices(const struct slices *slices, uint32_t number)
             .first_line = (uint16_t)(slices->first + at),
             .line_count = (uint16_t)(left < slices->lines ? left : slices->lines),
             .format = viewer->panel.format,
+            .changes = slices->changes,
         };
         int status = ow_draw_band(&worker->workspace, &target, &worker->stats);
         result = status < 0 ? status : result;
@@ -97,7 +102,7 @@ static int begin_frame(struct ow_viewer *viewer)
 
 /* Draws lines first .. first+count-1 to pixels: several slices for each worker even out the work. */
 static int draw_lines(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride, uint16_t first,
-                      uint16_t count)
+                      uint16_t count, struct ow_changes *changes)
 {
     uint32_t parts = viewer->workers > 1 ? viewer->workers * SLICES : 1;
     struct slices slices = {
@@ -107,6 +112,7 @@ static int draw_lines(struct ow_viewer *viewer, uint8_t *pixels, uint32_t stride
         .first = first,
         .count = count,
         .lines = (uint16_t)((count + parts - 1) / parts),
+        .changes = changes,
     };
     return draw_together(&slices);
 }
@@ -168,7 +174,7 @@ static int draw_to_bands(struct ow_viewer *viewer)
         }
         uint8_t *pixels = viewer->band[turn];
         turn = (turn + 1) % bands;
-        status = draw_lines(viewer, pixels, viewer->band_stride, first, count);
+        status = draw_lines(viewer, pixels, viewer->band_stride, first, count, NULL);
         if (status < 0) {
             break;
         }
@@ -183,6 +189,42 @@ static int draw_to_bands(struct ow_viewer *viewer)
     return wait_done(viewer, 0);
 }
 
+static uint16_t round_down(uint32_t value, uint32_t step)
+{
+    return (uint16_t)(value / step * step);
+}
+
+static uint16_t round_up(uint32_t value, uint32_t step, uint32_t end)
+{
+    uint32_t rounded = (value + step - 1) / step * step;
+    return (uint16_t)(rounded < end ? rounded : end);
+}
+
+/* Fills rects with what changed, outwards to the panel's alignment; all of it, if there is more. */
+static uint32_t list_changes(const struct ow_viewer *viewer, struct ow_panel_rect *rects)
+{
+    const struct ow_panel_info *panel = &viewer->panel;
+    uint32_t price = panel->rect_bytes * 8 / panel->format->bits;
+    struct ow_changes_cursor cursor = { 0, 0 };
+    struct ow_change change;
+    uint32_t count = 0;
+    while (ow_changes_next(&viewer->changes, &cursor, price, &change)) {
+        if (count == RECTS_MAX) {
+            rects[0] = (struct ow_panel_rect){ 0, 0, panel->width, panel->height };
+            return 1;
+        }
+        struct ow_panel_rect *rect = &rects[count++];
+        rect->x = round_down(change.left, panel->align_x);
+        rect->y = round_down(change.top, panel->align_y);
+        rect->width = (uint16_t)(round_up(change.right, panel->align_x, panel->width) - rect->x);
+        rect->height = (uint16_t)(round_up(change.bottom, panel->align_y, panel->height) - rect->y);
+    }
+    if (count == 0) { /* a frame was asked for: show that nothing changed by its first corner */
+        rects[count++] = (struct ow_panel_rect){ 0, 0, panel->align_x, panel->align_y };
+    }
+    return count;
+}
+
 static int draw_to_lent(struct ow_viewer *viewer)
 {
     const struct ow_panel *panel = viewer->config.panel;
@@ -191,15 +233,20 @@ static int draw_to_lent(struct ow_viewer *viewer)
     if (status < 0) {
         return status;
     }
+    struct ow_changes *changes = viewer->changes.bits != NULL ? &viewer->changes : NULL;
+    if (changes != NULL) { /* only the frame shown last is what show's rectangles refer to */
+        ow_changes_begin(changes, buffer.age == 1);
+    }
     uint16_t count;
     for (uint16_t first = 0; first < viewer->panel.height && status >= 0;
          first = (uint16_t)(first + count)) {
         count = lines_from(viewer, first);
         uint8_t *pixels = buffer.pixels + (uint32_t)first * buffer.stride;
-        status = draw_lines(viewer, pixels, buffer.stride, first, count);
+        status = draw_lines(viewer, pixels, buffer.stride, first, count, changes);
     }
-    struct ow_panel_rect whole = { 0, 0, viewer->panel.width, viewer->panel.height };
-    int shown = panel->ops->show(panel->device, &whole, status < 0 ? 0 : 1);
+    struct ow_panel_rect rects[RECTS_MAX] = { { 0, 0, viewer->panel.width, viewer->panel.height } };
+    uint32_t rect_count = changes != NULL ? list_changes(viewer, rects) : 1;
+    int shown = panel->ops->show(panel->device, rects, status < 0 ? 0 : rect_count);
     return status < 0 ? status : shown;
 }
 

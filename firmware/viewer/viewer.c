@@ -12,6 +12,7 @@ struct layout {
     uint32_t stride;
     uint32_t band_bytes; /* of one band, a multiple of 8; 0: the panel lends */
     uint32_t bands;
+    uint32_t changes_bytes; /* a multiple of 8 */
 };
 
 static uint32_t round_up(uint32_t value, uint32_t step)
@@ -62,7 +63,11 @@ static uint32_t make_layout(struct layout *layout, const struct ow_viewer_config
     layout->workspace_bytes = round_up(workspace, 8);
     layout->workers = config->workers != NULL ? config->workers->count : 1;
     layout->worker_bytes = round_up(layout->workers * (uint32_t)sizeof(struct ow_viewer_worker), 8);
-    uint64_t total = layout->worker_bytes + (uint64_t)layout->workspace_bytes * layout->workers +
+    layout->changes_bytes = config->find_changes && lends
+                                ? round_up(ow_changes_bytes_needed(info->width, info->height), 8)
+                                : 0;
+    uint64_t total = layout->changes_bytes + layout->worker_bytes +
+                     (uint64_t)layout->workspace_bytes * layout->workers +
                      (uint64_t)layout->band_bytes * layout->bands;
     return total > UINT32_MAX ? 0 : (uint32_t)total;
 }
@@ -135,6 +140,10 @@ static int place(struct ow_viewer *viewer, void *memory, uint32_t bytes)
         free_memory += layout.workspace_bytes;
     }
     viewer->workers = layout.workers;
+    if (layout.changes_bytes > 0) {
+        ow_changes_place(&viewer->changes, viewer->panel.width, viewer->panel.height, free_memory);
+        free_memory += layout.changes_bytes;
+    }
     viewer->band[0] = free_memory;
     viewer->band[1] = free_memory + (layout.bands - 1) * layout.band_bytes;
     viewer->band_stride = layout.stride;

@@ -79,6 +79,7 @@ struct ow_viewer_config {
     uint8_t bands;            /* 1, or 2: draw one while the panel takes the other; 0 means 1 */
     uint32_t cached_vertices; /* as in struct ow_workspace_config */
     uint32_t listed_faces;    /* likewise; 0 unless the order is OW_SCAN_LINE */
+    bool find_changes;        /* a bit a pixel: lending panels are told what changed */
 
     /* Devices. Panel and clock are mandatory, the others may be NULL. All outlive the viewer. */
     const struct ow_panel *panel;
@@ -115,6 +116,7 @@ struct ow_viewer {
     struct ow_panel_info panel;
     struct ow_viewer_worker *worker; /* workers of them, in the memory given */
     uint32_t workers;
+    struct ow_changes changes;
     uint8_t *band[2];
     uint32_t band_stride; /* bytes */
     uint16_t band_lines;

@@ -154,6 +154,44 @@ static void a_panel_that_turns_gets_the_upright_picture(void **state)
     }
 }
 
+/* ---- changes ---- */
+
+/* A turn of some views; returns the pixels that went to the panel. */
+static uint64_t run_turn(uint32_t crc[SCENE_FRAMES], bool find_changes, uint16_t buffers)
+{
+    struct scene scene;
+    struct sim_panel_config panel = {
+        .kind = SIM_PANEL_LENDS, .align_x = 2, .align_y = 3, .buffers = buffers
+    };
+    scene_open(&scene, &panel);
+    scene.config.views = 12;
+    scene.config.find_changes = find_changes;
+    assert_int_equal(scene_start(&scene), OW_OK);
+    scene_run(&scene);
+    assert_int_equal(scene.frames, 12);
+    memcpy(crc, scene.crc, sizeof scene.crc);
+    uint64_t sent = scene.panel.pixels_sent;
+    scene_close(&scene);
+    return sent;
+}
+
+/* The panel takes over only the rectangles: what it shows is right if they hold all changes. */
+static void only_what_changed_is_shown(void **state)
+{
+    (void)state;
+    uint32_t whole[SCENE_FRAMES];
+    uint32_t parts[SCENE_FRAMES];
+    uint64_t all = run_turn(whole, false, 1);
+    assert_int_equal(all, 12 * SCENE_WIDTH * SCENE_HEIGHT);
+    uint64_t sent = run_turn(parts, true, 1);
+    assert_memory_equal(whole, parts, 12 * sizeof whole[0]);
+    print_message("%u of %u pixels\n", (unsigned)sent, (unsigned)all);
+    assert_true(sent < all * 3 / 4);
+    /* Buffers that take turns hold an older frame: all of them is shown. */
+    assert_int_equal(run_turn(parts, true, 2), all);
+    assert_memory_equal(whole, parts, 12 * sizeof whole[0]);
+}
+
 /* ---- views and time ---- */
 
 static void an_orbit_shows_each_view_once_at_its_time(void **state)
@@ -456,6 +494,7 @@ int main(void)
         cmocka_unit_test(the_null_panel_takes_frames),
         cmocka_unit_test(the_projection_turns_where_the_panel_cannot),
         cmocka_unit_test(a_panel_that_turns_gets_the_upright_picture),
+        cmocka_unit_test(only_what_changed_is_shown),
         cmocka_unit_test(an_orbit_shows_each_view_once_at_its_time),
         cmocka_unit_test(a_repeated_orbit_begins_again),
         cmocka_unit_test(a_list_gives_its_views_and_its_errors),

@@ -29,6 +29,7 @@
 enum { SCENES = 1500, LINES = 300, MOST = 14 };
 
 #define STEP 256u /* tolerance: a lattice step */
+#define EYE_MARGIN 1.5 /* lattice steps: the tolerance, and rounding */
 #define MARGIN 2.5 /* lattice steps: the tolerance, and what coplanar polygons may be apart */
 
 static struct random chance;
@@ -56,7 +57,8 @@ static double coordinate(uint32_t kind)
 {
     double grid = random_below(&chance, kind == 0 ? 5 : 1000);
     if (kind == 2 && random_below(&chance, 3) == 0) { /* a needle's end, nearly on the grid */
-        grid = random_below(&chance, 5) * 250.0 + random_below(&chance, 3) * 0.05;
+        grid = random_below(&chance, 5) * 250.0;
+        grid += random_below(&chance, 3) * 0.05; /* one after the other, for every compiler */
     }
     return kind == 0 ? grid * 250 : grid;
 }
@@ -126,9 +128,11 @@ static bool make_scene(struct scene *s, uint32_t tolerance_q8)
     plane_group(&s->planes, &s->mesh, &s->model, tolerance_q8);
     arrangement_begin(&s->arrangement, &s->mesh, &s->planes);
     pieces_begin(&s->pieces, &s->mesh, &s->arrangement);
-    struct obstruction_options options = { 1, tolerance_q8, s->two_sided };
-    obstruction_build(&s->tree, &s->planes, &s->mesh, &s->arrangement, &s->pieces, &options,
-                      NULL);
+    struct obstruction_options options = { .seed = 1,
+                                           .tolerance_q8 = tolerance_q8,
+                                           .two_sided = s->two_sided };
+    assert_true(obstruction_build(&s->tree, &s->planes, &s->mesh, &s->arrangement, &s->pieces,
+                                  &options, NULL));
     list_faces(s);
     return true;
 }
@@ -230,8 +234,8 @@ static bool try_line(struct scene *s, tree_item far, tree_item near)
         return false;
     }
     for (uint32_t i = 0; i < s->planes.count; i++) {
-        if (fabs(height(&s->planes.all[i], eye)) < 1e-4) {
-            return false; /* rounding, not the tree, would decide */
+        if (fabs(height(&s->planes.all[i], eye)) < EYE_MARGIN) {
+            return false; /* so near to a plane the tolerance, not the tree, decides */
         }
     }
     s->next_rank = 0;
@@ -257,8 +261,9 @@ static void try_scenes(uint32_t tolerance_q8, uint32_t seed)
         }
         made++;
         for (int k = 0; k < LINES && s.face_count > 1; k++) {
-            told += try_line(&s, s.faces[random_below(&chance, s.face_count)],
-                             s.faces[random_below(&chance, s.face_count)]);
+            uint32_t far = random_below(&chance, s.face_count);
+            uint32_t near = random_below(&chance, s.face_count);
+            told += try_line(&s, s.faces[far], s.faces[near]);
         }
         free_scene(&s);
     }

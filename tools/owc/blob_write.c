@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blob_bounds.h"
 #include "map64.h"
 #include "ow_tree.h"
 #include "tools/common/xalloc.h"
@@ -58,6 +59,16 @@ static uint32_t count_items(const struct layout *l, const struct tree_node *node
     return count;
 }
 
+/* Of a node's bytes those before its items. */
+static uint32_t head_bytes(const struct layout *l, const struct tree_node *node)
+{
+    uint32_t bytes = OW_NODE_WORD_BYTES;
+    if (node->plane != MESH_NONE) {
+        bytes += OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES;
+    }
+    return bytes + (blob_is_bounded(l->parts->tree, node) ? OW_NODE_BOUNDS_BYTES : 0u);
+}
+
 static void meet_node(struct layout *l, uint32_t node, uint32_t above)
 {
     l->switches_above[l->node_count] = above + (l->parts->tree->nodes[node].plane != MESH_NONE);
@@ -104,9 +115,8 @@ static bool lay_out_nodes(struct layout *l, struct problem *problem)
             return problem_set(problem, 0, "%u faces in one plane, the format allows %d", items,
                                OW_NODE_MAX_ITEMS);
         }
-        l->node_bytes += OW_NODE_WORD_BYTES + 4ull * items;
+        l->node_bytes += head_bytes(l, node) + 4ull * items;
         if (node->plane != MESH_NONE) {
-            l->node_bytes += OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES;
             l->blob->switches++;
             meet_item(l, node->front, above);
             meet_item(l, node->back, above);
@@ -274,6 +284,20 @@ static void put_plane(struct layout *l, const struct plane *plane)
     put32(l, (uint32_t)d);
 }
 
+static void put_bounds(struct layout *l, const struct tree_node *node)
+{
+    struct blob_bounds bounds;
+    blob_bounds_find(&bounds, l->parts->repaired, l->parts->tree, node);
+    for (int k = 0; k < 3; k++) {
+        put16(l, (uint16_t)bounds.centre[k]);
+    }
+    put16(l, bounds.radius);
+    for (int k = 0; k < 3; k++) {
+        put8(l, bounds.axis[k]);
+    }
+    put8(l, bounds.cosine);
+}
+
 static void put_item(struct layout *l, tree_item item, uint64_t *next_child, uint32_t *met)
 {
     uint32_t tag = tree_item_tag(item);
@@ -282,10 +306,7 @@ static void put_item(struct layout *l, tree_item item, uint64_t *next_child, uin
     } else if (tag == OW_ITEM_NODE) {
         const struct tree_node *child = &l->parts->tree->nodes[l->nodes[(*met)++]];
         put32(l, tree_item_of(OW_ITEM_NODE, (uint32_t)(*next_child / 4)));
-        *next_child += OW_NODE_WORD_BYTES + 4ull * count_items(l, child);
-        if (child->plane != MESH_NONE) {
-            *next_child += OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES;
-        }
+        *next_child += head_bytes(l, child) + 4ull * count_items(l, child);
     } else {
         uint32_t first = l->parts->repaired->first[tree_item_value(item)];
         for (uint32_t i = first; i < first + outlines_of(l, item); i++) {
@@ -298,16 +319,18 @@ static void put_nodes(struct layout *l)
 {
     const struct tree *tree = l->parts->tree;
     const struct tree_node *root = &tree->nodes[l->nodes[0]];
-    uint64_t next_child = OW_NODE_WORD_BYTES + 4ull * count_items(l, root);
+    uint64_t next_child = head_bytes(l, root) + 4ull * count_items(l, root);
     uint32_t met = 1;
-    if (root->plane != MESH_NONE) {
-        next_child += OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES;
-    }
     for (uint32_t i = 0; i < l->node_count; i++) {
         const struct tree_node *node = &tree->nodes[l->nodes[i]];
         bool is_switch = node->plane != MESH_NONE;
-        put32(l, (is_switch ? OW_NODE_SWITCH : OW_NODE_SEQUENCE) | count_items(l, node)
-                                                                       << OW_NODE_COUNT_SHIFT);
+        bool bounded = blob_is_bounded(tree, node);
+        put32(l, (is_switch ? OW_NODE_SWITCH : OW_NODE_SEQUENCE) |
+                     (bounded ? (uint32_t)OW_NODE_BOUNDED : 0u) |
+                     count_items(l, node) << OW_NODE_COUNT_SHIFT);
+        if (bounded) {
+            put_bounds(l, node);
+        }
         if (is_switch) {
             put_item(l, node->front, &next_child, &met);
             put_item(l, node->back, &next_child, &met);

@@ -61,7 +61,7 @@ static bool overlap(const struct box *a, const struct box *b)
 static struct box box_of(const struct mesh *mesh, uint32_t number)
 {
     const struct mesh_polygon *polygon = &mesh->polygons[number];
-    struct box box;
+    struct box box = { { 0 }, { 0 } };
     for (uint32_t i = 0; i < polygon->count; i++) {
         const int16_t *p = mesh->points[mesh->corners[polygon->first + i]];
         struct box point;

@@ -16,7 +16,7 @@
 #include "tools/common/xalloc.h"
 
 /* A table of more bytes than this is refused. */
-#define MOST_TABLE_BYTES ((uint64_t)3 << 30)
+#define MOST_TABLE_BYTES ((uint64_t)2 << 30)
 
 enum fate {
     STAYS,
@@ -62,14 +62,19 @@ struct maker {
 
 /* ---- rows ---- */
 
-static uint8_t *new_sides(struct maker *m, uint32_t count)
+static void check_room(const struct maker *m, uint64_t more)
 {
-    m->table_bytes += count;
-    if (m->table_bytes > MOST_TABLE_BYTES) {
+    if (m->table_bytes + more > MOST_TABLE_BYTES) {
         fail(FAIL_INPUT, NULL, 0,
              "the table of one-way priorities needs more than %llu bytes, use another --method",
              (unsigned long long)MOST_TABLE_BYTES);
     }
+}
+
+static uint8_t *new_sides(struct maker *m, uint32_t count)
+{
+    check_room(m, count);
+    m->table_bytes += count;
     return xalloc(count, 1);
 }
 
@@ -493,6 +498,11 @@ static void show(struct maker *m)
 
 static void run_static(struct maker *m, struct group *g)
 {
+    uint64_t unknown = 0;
+    for (uint32_t r = 0; r < g->row_count; r++) {
+        unknown += g->rows[r].members > 0 && g->rows[r].sides == NULL;
+    }
+    check_room(m, unknown * g->count); /* before it takes long */
     for (uint32_t r = 0; r < g->row_count; r++) {
         if (g->rows[r].members > 0 && g->rows[r].sides == NULL) {
             compute_row(m, g, r);

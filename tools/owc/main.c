@@ -52,6 +52,8 @@ struct command {
     bool weight_given;
     bool strict;
     bool keep_ids;
+    bool method_given;
+    bool select_given;
     bool candidates_given;
     bool tolerance_given;
 };
@@ -67,7 +69,8 @@ static const char notes[] =
     "--insert adds polygons one after the other to a tree of --method bsp or online, with the\n"
     "tolerance, sides and kinds of records that the tree has.\n"
     "--locate says in which convex region of a tree of switches a point lies.\n"
-    "The method obstruction is not there yet; until it is, bsp is the default.\n";
+    "Without --method, an option of bsp alone chooses bsp, all else obstruction. The default\n"
+    "tolerance of obstruction is 0.0005, that of the others 0.\n";
 
 /* Only one of the outputs can be standard output. */
 static void check_outputs(const struct option_table *table, const struct command *c)
@@ -125,14 +128,24 @@ static void check_usage(const struct option_table *table, const struct command *
     check_outputs(table, c);
 }
 
+static void choose_method(struct command *c)
+{
+    bool bsp = c->select_given || c->candidates_given || c->weight_given || c->dividing != 0 ||
+               c->planes_file != NULL;
+    if (!c->method_given) {
+        c->method = bsp ? METHOD_BSP : METHOD_OBSTRUCTION;
+    }
+}
+
 static void parse(struct command *c, int argc, char **argv)
 {
     const struct option_spec specs[] = {
         { "output", 'o', OPTION_STRING, &c->output, "TREE.owt", "where to write the tree",
           .choices = NULL },
-        { "method", 0, OPTION_CHOICE, &c->method, NULL, "strategy", .choices = methods },
+        { "method", 0, OPTION_CHOICE, &c->method, NULL, "strategy", .choices = methods,
+          .given = &c->method_given },
         { "select", 0, OPTION_CHOICE, &c->select, NULL, "whose plane divides",
-          .choices = selects },
+          .choices = selects, .given = &c->select_given },
         { "candidates", 0, OPTION_UNSIGNED, &c->candidates, "K", "polygons that kedem and conflict try",
           .min = 1, .max = 1e9, .given = &c->candidates_given },
         { "conflict-weight", 0, OPTION_DOUBLE, &c->conflict_weight, "W",
@@ -181,6 +194,7 @@ static void parse(struct command *c, int argc, char **argv)
         .notes = notes,
     };
     options_parse(&table, argc, argv, &c->model);
+    choose_method(c);
     check_usage(&table, c);
 }
 

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "map64.h"
+#include "obstruction_chunks.h"
 #include "obstruction_components.h"
 #include "obstruction_cuts.h"
 #include "obstruction_faces.h"
@@ -63,7 +64,7 @@ struct builder {
     struct arrangement *arrangement;
     struct pieces *pieces;
     struct progress *progress;
-    const struct obstruction_effort *effort;
+    struct obstruction_effort effort;
     struct random random;
     double tolerance;    /* lattice steps */
     struct obstruction_cuts cuts;
@@ -193,7 +194,7 @@ static uint8_t *find_places(const struct builder *b, struct obstruction_set *set
 static void make_switch(struct builder *b, struct obstruction_set *set, const uint32_t *faces,
                         uint32_t count, struct place place)
 {
-    uint32_t plane = obstruction_choose(set, b->planes, faces, count, b->effort, &b->random);
+    uint32_t plane = obstruction_choose(set, b->planes, faces, count, &b->effort, &b->random);
     uint32_t node = tree_add_node(b->tree, plane);
     struct halves halves = { xalloc(count, sizeof(tree_item)), xalloc(count, sizeof(tree_item)),
                              xalloc(count, sizeof(tree_item)), 0, 0, 0 };
@@ -211,31 +212,106 @@ static void make_switch(struct builder *b, struct obstruction_set *set, const ui
 
 /* ---- sequences ---- */
 
+/* What becomes one item of a sequence: a face, a component, or a chunk of faces. */
+struct entry {
+    uint32_t first; /* of the components' faces */
+    uint32_t count;
+    bool chunk;
+};
+
+static struct entry *add_entry(struct entry *entries, size_t *capacity, uint32_t *count,
+                               struct entry entry)
+{
+    entries = xgrow(entries, capacity, (size_t)*count + 1, sizeof *entries);
+    entries[(*count)++] = entry;
+    return entries;
+}
+
+/* Single faces that follow one another, in chunks if they are many. */
+static struct entry *add_run(struct obstruction_set *set, struct components *c, uint32_t first,
+                             uint32_t length, struct entry *entries, size_t *capacity,
+                             uint32_t *count)
+{
+    if (length < CHUNK_RUN) {
+        for (uint32_t i = first; i < first + length; i++) {
+            entries = add_entry(entries, capacity, count, (struct entry){ i, 1, false });
+        }
+        return entries;
+    }
+    uint32_t *ends = xalloc(length, sizeof *ends);
+    uint32_t chunks = obstruction_chunks(set, c->faces + first, length, ends);
+    for (uint32_t i = 0; i < chunks; i++) {
+        uint32_t begin = i > 0 ? ends[i - 1] : 0;
+        entries = add_entry(entries, capacity, count,
+                            (struct entry){ first + begin, ends[i] - begin, true });
+    }
+    free(ends);
+    return entries;
+}
+
+static struct entry *list_entries(struct obstruction_set *set, struct components *c,
+                                  uint32_t *count)
+{
+    struct entry *entries = NULL;
+    size_t capacity = 0;
+    uint32_t i = 0;
+    *count = 0;
+    while (i < c->count) {
+        uint32_t run = i;
+        while (run < c->count && c->starts[run + 1] - c->starts[run] == 1) {
+            run++;
+        }
+        entries = add_run(set, c, c->starts[i], run - i, entries, &capacity, count);
+        if (run < c->count) {
+            struct entry component = { c->starts[run], c->starts[run + 1] - c->starts[run],
+                                       false };
+            entries = add_entry(entries, &capacity, count, component);
+            run++;
+        }
+        i = run;
+    }
+    return entries;
+}
+
+static void put_chunk(struct builder *b, const struct obstruction_set *set,
+                      const uint32_t *faces, uint32_t count, struct place place)
+{
+    uint32_t node = tree_add_node(b->tree, MESH_NONE);
+    for (uint32_t i = 0; i < count; i++) {
+        tree_add_item(b->tree, node, set->faces[faces[i]].item);
+    }
+    put(b, place, tree_item_of(OW_ITEM_NODE, node));
+    b->placed += count;
+}
+
 static void make_sequence(struct builder *b, struct obstruction_set *set, struct place place)
 {
     struct components c;
+    uint32_t count;
     components_find(&c, set);
-    b->tree->relations += set->relations;
     if (c.count == 1 && set->count > 1) {
         make_switch(b, set, c.faces, set->count, place);
         components_free(&c);
         return;
     }
+    struct entry *entries = list_entries(set, &c, &count);
     uint32_t node = tree_add_node(b->tree, MESH_NONE);
     size_t first = b->tree->item_count;
-    for (uint32_t i = 0; i < c.count; i++) {
-        tree_add_item(b->tree, node, set->faces[c.faces[c.starts[i]]].item);
+    for (uint32_t i = 0; i < count; i++) {
+        tree_add_item(b->tree, node, set->faces[c.faces[entries[i].first]].item);
     }
     put(b, place, tree_item_of(OW_ITEM_NODE, node));
-    for (uint32_t i = 0; i < c.count; i++) {
-        uint32_t count = c.starts[i + 1] - c.starts[i];
-        if (count > 1) {
-            make_switch(b, set, c.faces + c.starts[i], count,
-                        (struct place){ SLOT_ITEM, first + i });
+    for (uint32_t i = 0; i < count; i++) {
+        struct place here = { SLOT_ITEM, first + i };
+        if (entries[i].chunk) {
+            put_chunk(b, set, c.faces + entries[i].first, entries[i].count, here);
+        } else if (entries[i].count > 1) {
+            make_switch(b, set, c.faces + entries[i].first, entries[i].count, here);
         } else {
             b->placed++;
         }
     }
+    free(entries);
     components_free(&c);
 }
 
@@ -250,6 +326,7 @@ static void build_task(struct builder *b, const struct task *task)
     obstruction_set_begin(&set, b->mesh, b->arrangement, b->pieces, b->tolerance,
                           task->items, task->count);
     make_sequence(b, &set, task->place);
+    b->tree->relations += set.relations;
     obstruction_set_free(&set);
 }
 
@@ -266,7 +343,7 @@ static void push_all(struct builder *b, bool two_sided)
     push(b, items, count, (struct place){ SLOT_ROOT, 0 });
 }
 
-void obstruction_build(struct tree *tree, struct planes *planes, const struct mesh *mesh,
+bool obstruction_build(struct tree *tree, struct planes *planes, const struct mesh *mesh,
                        struct arrangement *arrangement, struct pieces *pieces,
                        const struct obstruction_options *options, struct progress *progress)
 {
@@ -276,21 +353,31 @@ void obstruction_build(struct tree *tree, struct planes *planes, const struct me
                          .arrangement = arrangement,
                          .pieces = pieces,
                          .progress = progress,
-                         .effort = pieces->count > SMALL_MODEL ? &less_effort : &great_effort,
+                         .effort = pieces->count > SMALL_MODEL ? less_effort : great_effort,
                          .random = { options->seed },
                          .tolerance = options->tolerance_q8 / 256.0 };
+    if (options->balance > 0) {
+        b.effort.balance = options->balance;
+    }
     *tree = (struct tree){ .root = OW_ITEM_NONE };
     push_all(&b, options->two_sided);
+    bool fine = true;
     while (b.task_count > 0) {
         struct task task = b.tasks[--b.task_count];
         b.waiting -= task.count;
-        build_task(&b, &task);
+        fine = fine && (options->most == 0 || b.placed + b.waiting <= options->most);
+        if (fine) {
+            build_task(&b, &task);
+        }
         free(task.items);
         if (progress != NULL) {
             progress_show(progress, "building", b.placed, b.placed + b.waiting);
         }
     }
-    obstruction_cuts_share(&b.cuts, tree);
+    if (fine) {
+        obstruction_cuts_share(&b.cuts, tree);
+    }
     obstruction_cuts_free(&b.cuts);
     free(b.tasks);
+    return fine;
 }

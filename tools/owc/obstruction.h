@@ -21,13 +21,15 @@ struct obstruction_options {
     uint64_t seed;
     uint32_t tolerance_q8; /* of the relation; that of the planes may be less */
     bool two_sided; /* each piece's back is a face too */
+    double balance; /* what balance is worth, in cuts a face; 0: the usual */
+    uint64_t most;  /* give up where there would be more faces; 0: never */
 };
 
 /*
  * Builds the tree of all pieces; cuts them and adds planes as needed. planes
- * are the arrangement's. progress may be NULL.
+ * are the arrangement's. progress may be NULL. False: it gave up.
  */
-void obstruction_build(struct tree *tree, struct planes *planes, const struct mesh *mesh,
+bool obstruction_build(struct tree *tree, struct planes *planes, const struct mesh *mesh,
                        struct arrangement *arrangement, struct pieces *pieces,
                        const struct obstruction_options *options, struct progress *progress);
 

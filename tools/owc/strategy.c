@@ -7,6 +7,7 @@
 #include "feudal_tree.h"
 #include "obstruction.h"
 #include "online.h"
+#include "smallest.h"
 #include "tools/common/xalloc.h"
 
 static void build_bsp(struct tree *tree, struct arrangement *arrangement, struct planes *planes,
@@ -38,8 +39,9 @@ void strategy_build(struct tree *tree, struct arrangement *arrangement, struct p
 {
     struct feudal_options feudal = { strategy->method == METHOD_FEUDAL_DYNAMIC, strategy->seed,
                                      strategy->two_sided };
-    struct obstruction_options obstruction = { strategy->seed, strategy->tolerance_q8,
-                                               strategy->two_sided };
+    struct obstruction_options obstruction = { .seed = strategy->seed,
+                                               .tolerance_q8 = strategy->tolerance_q8,
+                                               .two_sided = strategy->two_sided };
     if (strategy->into != NULL) {
         insertion_build(tree, strategy->into, arrangement, pieces, strategy->two_sided, progress);
         return;
@@ -53,7 +55,11 @@ void strategy_build(struct tree *tree, struct arrangement *arrangement, struct p
         online_build(tree, arrangement, pieces, strategy->two_sided, progress);
         break;
     case METHOD_OBSTRUCTION:
-        obstruction_build(tree, planes, mesh, arrangement, pieces, &obstruction, progress);
+        if (mesh->polygon_count <= SMALLEST_MODEL) {
+            smallest_build(tree, arrangement, planes, pieces, mesh, strategy, progress);
+        } else {
+            obstruction_build(tree, planes, mesh, arrangement, pieces, &obstruction, progress);
+        }
         break;
     case METHOD_BSP:
         build_bsp(tree, arrangement, planes, pieces, mesh, strategy, progress);

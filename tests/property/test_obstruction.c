@@ -28,9 +28,9 @@
 
 enum { SCENES = 1500, LINES = 300, MOST = 14 };
 
-#define STEP 256u /* tolerance: a lattice step */
+#define STEP 256u      /* tolerance: a lattice step */
 #define EYE_MARGIN 1.5 /* lattice steps: the tolerance, and rounding */
-#define MARGIN 2.5 /* lattice steps: the tolerance, and what coplanar polygons may be apart */
+#define MARGIN 2.5     /* lattice steps: the tolerance, and what coplanar polygons may be apart */
 
 static struct random chance;
 
@@ -152,11 +152,11 @@ static void free_scene(struct scene *s)
 
 static double height(const struct plane *plane, const double at[3])
 {
-    double length = sqrt(plane->normal[0] * plane->normal[0] +
-                         plane->normal[1] * plane->normal[1] +
+    double length = sqrt(plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
                          plane->normal[2] * plane->normal[2]);
     return (plane->normal[0] * at[0] + plane->normal[1] * at[1] + plane->normal[2] * at[2] +
-            plane->offset) / length;
+            plane->offset) /
+           length;
 }
 
 static void walk(struct scene *s, tree_item item, const double eye[3])
@@ -211,8 +211,8 @@ static void any_point(const struct scene *s, tree_item face, double at[3])
 static double above(const struct scene *s, tree_item face, const double at[3])
 {
     const struct piece *piece = &s->pieces.all[tree_item_value(face)];
-    bool against = s->mesh.polygons[piece->polygon].reversed !=
-                   (tree_item_tag(face) == OW_ITEM_REVERSE);
+    bool against =
+        s->mesh.polygons[piece->polygon].reversed != (tree_item_tag(face) == OW_ITEM_REVERSE);
     double value = height(&s->planes.all[piece->record], at);
     return against ? -value : value;
 }

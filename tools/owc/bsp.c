@@ -94,9 +94,9 @@ static uint32_t choose_by_conflicts(struct builder *b, const struct list *list)
     for (uint32_t i = 0; i < count; i++) {
         uint32_t candidate = all ? i : random_below(&b->random, list->count);
         uint32_t plane = b->pieces->all[list->pieces[candidate]].record;
-        double score = conflict_score(&b->conflict, b->arrangement, b->pieces, list->pieces,
-                                      list->count, plane, b->options->conflict_weight,
-                                      &b->tree->relations);
+        double score =
+            conflict_score(&b->conflict, b->arrangement, b->pieces, list->pieces, list->count,
+                           plane, b->options->conflict_weight, &b->tree->relations);
         if (i == 0 || score > best_score) {
             best = candidate;
             best_score = score;

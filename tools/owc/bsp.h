@@ -13,9 +13,9 @@
 
 /* Which polygon's plane becomes the switch. */
 enum bsp_select {
-    BSP_FIRST,     /* the first in the file */
-    BSP_RANDOM,    /* any */
-    BSP_KEDEM,     /* the best of a few chosen at random [FAG83] */
+    BSP_FIRST,      /* the first in the file */
+    BSP_RANDOM,     /* any */
+    BSP_KEDEM,      /* the best of a few chosen at random [FAG83] */
     BSP_EXHAUSTIVE, /* the best of all [FKN80] */
     BSP_CONFLICT    /* of a few at random the one that takes away most conflicts [FKN80] */
 };
@@ -24,7 +24,7 @@ struct bsp_options {
     enum bsp_select select;
     uint32_t candidates; /* BSP_KEDEM, BSP_CONFLICT: how many, at least 1 */
     uint64_t seed;
-    bool two_sided; /* each piece's back is a face too */
+    bool two_sided;         /* each piece's back is a face too */
     double conflict_weight; /* BSP_CONFLICT: of the conflicts that stay */
     /* Switches before all others: these planes in their order, then planes found along the axes. */
     const uint32_t *dividing;

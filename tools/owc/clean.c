@@ -14,7 +14,7 @@
 struct cleaner {
     const struct model *model;
     struct mesh *mesh;
-    uint32_t *point_of; /* lattice point of each vertex of the model, or MESH_NONE */
+    uint32_t *point_of;  /* lattice point of each vertex of the model, or MESH_NONE */
     struct map64 points; /* lattice coordinates to point numbers */
     bool keep_normals;
     size_t point_capacity;
@@ -36,12 +36,12 @@ static uint32_t snap_vertex(struct cleaner *c, uint32_t vertex)
     }
     int16_t at[3];
     lattice_snap(&c->mesh->lattice, c->model->vertices[vertex], at);
-    uint64_t key = (uint64_t)(uint16_t)at[0] << 32 | (uint64_t)(uint16_t)at[1] << 16 |
-                   (uint16_t)at[2];
+    uint64_t key =
+        (uint64_t)(uint16_t)at[0] << 32 | (uint64_t)(uint16_t)at[1] << 16 | (uint16_t)at[2];
     uint32_t point = map64_put(&c->points, key, c->mesh->point_count);
     if (point == c->mesh->point_count) {
-        c->mesh->points = xgrow(c->mesh->points, &c->point_capacity, point + 1u,
-                                sizeof *c->mesh->points);
+        c->mesh->points =
+            xgrow(c->mesh->points, &c->point_capacity, point + 1u, sizeof *c->mesh->points);
         memcpy(c->mesh->points[point], at, sizeof at);
         c->mesh->point_count++;
     }
@@ -116,8 +116,8 @@ static void put_polygon(struct cleaner *c, const struct outline *outline, size_t
 {
     struct mesh *mesh = c->mesh;
     size_t at = mesh->source_corner_count;
-    mesh->sources = xgrow(mesh->sources, &c->source_capacity, at + outline->count,
-                          sizeof *mesh->sources);
+    mesh->sources =
+        xgrow(mesh->sources, &c->source_capacity, at + outline->count, sizeof *mesh->sources);
     memcpy(mesh->sources + at, outline->vertices, outline->count * sizeof *mesh->sources);
     mesh->source_corner_count += outline->count;
     mesh->polygons = xgrow(mesh->polygons, &c->polygon_capacity, mesh->polygon_count + 1u,
@@ -182,8 +182,7 @@ static void add_polygon(struct cleaner *c, size_t number)
     if (flat && add_outline(c, &outline)) {
         return;
     }
-    c->triangles = xgrow(c->triangles, &c->triangle_capacity, polygon->count,
-                         sizeof *c->triangles);
+    c->triangles = xgrow(c->triangles, &c->triangle_capacity, polygon->count, sizeof *c->triangles);
     outline_triangulate(points, polygon->count, c->triangles);
     add_triangles(c, &outline);
     c->mesh->uneven_cut++;

@@ -115,9 +115,9 @@ static bool write_checked(struct compiler *c, struct blob *blob, const struct mo
     }
     struct ow_tree tree;
     enum ow_status status = ow_tree_open(&tree, blob->bytes, blob->size);
-    return status == OW_OK || problem_set(problem, 0,
-                                          "a defect of this program: its tree was refused (%s)",
-                                          ow_status_text(status));
+    return status == OW_OK ||
+           problem_set(problem, 0, "a defect of this program: its tree was refused (%s)",
+                       ow_status_text(status));
 }
 
 static void fill_stats(const struct compiler *c, const struct model *model,
@@ -180,8 +180,8 @@ static bool run_stages(struct compiler *c, struct blob *blob, struct compile_sta
     if (c->options->compute_normals) {
         normals_compute(&c->mesh, c->options->crease);
     }
-    c->two_sided = c->options->sides == SIDES_TWO ||
-                   (c->options->sides == SIDES_AUTO && !c->mesh.closed);
+    c->two_sided =
+        c->options->sides == SIDES_TWO || (c->options->sides == SIDES_AUTO && !c->mesh.closed);
     plane_group(&c->planes, &c->mesh, model, plane_tolerance(c->options));
     if (c->options->into != NULL) {
         insertion_join(c->options->into, &c->mesh, &c->planes);

@@ -18,11 +18,10 @@
 #include "tools/common/options.h"
 #include "tools/common/outfile.h"
 
-static const char *const methods[] = { "bsp", "online", "feudal-static", "feudal-dynamic",
+static const char *const methods[] = { "bsp",         "online", "feudal-static", "feudal-dynamic",
                                        "obstruction", NULL };
 /* In the order of enum bsp_select. */
-static const char *const selects[] = { "first", "random", "kedem", "exhaustive", "conflict",
-                                       NULL };
+static const char *const selects[] = { "first", "random", "kedem", "exhaustive", "conflict", NULL };
 static const char *const sides[] = { "one", "two", "auto", NULL };
 static const char *const normals[] = { "none", "keep", "compute", NULL };
 static const char *const dividings[] = { "none", "axis", NULL };
@@ -109,8 +108,7 @@ static void check_usage(const struct option_table *table, const struct command *
         return;
     }
     if (c->model == NULL) {
-        options_wrong(table, c->locate_given || c->insert != NULL ? "name a tree"
-                                                                  : "name a model");
+        options_wrong(table, c->locate_given || c->insert != NULL ? "name a tree" : "name a model");
     }
     if (c->locate_given) {
         if (c->output != NULL || c->insert != NULL) {
@@ -144,13 +142,13 @@ static void parse(struct command *c, int argc, char **argv)
           .choices = NULL },
         { "method", 0, OPTION_CHOICE, &c->method, NULL, "strategy", .choices = methods,
           .given = &c->method_given },
-        { "select", 0, OPTION_CHOICE, &c->select, NULL, "whose plane divides",
-          .choices = selects, .given = &c->select_given },
-        { "candidates", 0, OPTION_UNSIGNED, &c->candidates, "K", "polygons that kedem and conflict try",
-          .min = 1, .max = 1e9, .given = &c->candidates_given },
+        { "select", 0, OPTION_CHOICE, &c->select, NULL, "whose plane divides", .choices = selects,
+          .given = &c->select_given },
+        { "candidates", 0, OPTION_UNSIGNED, &c->candidates, "K",
+          "polygons that kedem and conflict try", .min = 1, .max = 1e9,
+          .given = &c->candidates_given },
         { "conflict-weight", 0, OPTION_DOUBLE, &c->conflict_weight, "W",
-          "of conflicts that stay, beside those that go", .max = 1e9,
-          .given = &c->weight_given },
+          "of conflicts that stay, beside those that go", .max = 1e9, .given = &c->weight_given },
         { "planes-file", 0, OPTION_STRING, &c->planes_file, "FILE", "planes that divide first",
           .choices = NULL },
         { "dividing", 0, OPTION_CHOICE, &c->dividing, NULL, "planes to look for",
@@ -158,12 +156,10 @@ static void parse(struct command *c, int argc, char **argv)
         { "tolerance", 0, OPTION_DOUBLE, &c->tolerance, "T",
           "share of the longest side that counts as nothing", .max = 1,
           .given = &c->tolerance_given },
-        { "strict", 0, OPTION_FLAG, &c->strict, NULL, "no tolerance at all",
-          .choices = NULL },
+        { "strict", 0, OPTION_FLAG, &c->strict, NULL, "no tolerance at all", .choices = NULL },
         { "sides", 0, OPTION_CHOICE, &c->sides, NULL, "auto: one if the model is closed",
           .choices = sides },
-        { "seed", 0, OPTION_UNSIGNED, &c->seed, "N", "of random choices",
-          .choices = NULL },
+        { "seed", 0, OPTION_UNSIGNED, &c->seed, "N", "of random choices", .choices = NULL },
         { "keep-ids", 0, OPTION_FLAG, &c->keep_ids, NULL, "keep the source polygons' numbers",
           .choices = NULL },
         { "normals", 0, OPTION_CHOICE, &c->normals, NULL, "vertex normals, for smooth shading",
@@ -260,8 +256,9 @@ static void compile(const struct command *c, const char *name, struct model *mod
     }
     check_report(&stats.check, name);
     if (options->into != NULL && options->sides == SIDES_ONE && !stats.check.closed) {
-        warn_line(name, 0, "is open, but the tree is one-sided: backs are not drawn, compile the "
-                           "tree with --sides two");
+        warn_line(name, 0,
+                  "is open, but the tree is one-sided: backs are not drawn, compile the "
+                  "tree with --sides two");
     }
     warn_about(name, model);
     if (explained != NULL) {

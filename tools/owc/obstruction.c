@@ -66,7 +66,7 @@ struct builder {
     struct progress *progress;
     struct obstruction_effort effort;
     struct random random;
-    double tolerance;    /* lattice steps */
+    double tolerance; /* lattice steps */
     struct obstruction_cuts cuts;
     struct task *tasks;
     size_t task_count;
@@ -178,8 +178,7 @@ static uint8_t *find_places(const struct builder *b, struct obstruction_set *set
                             const uint32_t *faces, uint32_t count, uint32_t number)
 {
     const struct plane *plane = &b->planes->all[number];
-    double length = sqrt(plane->normal[0] * plane->normal[0] +
-                         plane->normal[1] * plane->normal[1] +
+    double length = sqrt(plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
                          plane->normal[2] * plane->normal[2]);
     double normal[3] = { plane->normal[0] / length, plane->normal[1] / length,
                          plane->normal[2] / length };
@@ -196,8 +195,12 @@ static void make_switch(struct builder *b, struct obstruction_set *set, const ui
 {
     uint32_t plane = obstruction_choose(set, b->planes, faces, count, &b->effort, &b->random);
     uint32_t node = tree_add_node(b->tree, plane);
-    struct halves halves = { xalloc(count, sizeof(tree_item)), xalloc(count, sizeof(tree_item)),
-                             xalloc(count, sizeof(tree_item)), 0, 0, 0 };
+    struct halves halves = { xalloc(count, sizeof(tree_item)),
+                             xalloc(count, sizeof(tree_item)),
+                             xalloc(count, sizeof(tree_item)),
+                             0,
+                             0,
+                             0 };
     uint8_t *places = find_places(b, set, faces, count, plane);
     for (uint32_t i = 0; i < count; i++) {
         put_face(b, &halves, &set->faces[faces[i]], plane, places[i]);
@@ -263,8 +266,7 @@ static struct entry *list_entries(struct obstruction_set *set, struct components
         }
         entries = add_run(set, c, c->starts[i], run - i, entries, &capacity, count);
         if (run < c->count) {
-            struct entry component = { c->starts[run], c->starts[run + 1] - c->starts[run],
-                                       false };
+            struct entry component = { c->starts[run], c->starts[run + 1] - c->starts[run], false };
             entries = add_entry(entries, &capacity, count, component);
             run++;
         }
@@ -273,8 +275,8 @@ static struct entry *list_entries(struct obstruction_set *set, struct components
     return entries;
 }
 
-static void put_chunk(struct builder *b, const struct obstruction_set *set,
-                      const uint32_t *faces, uint32_t count, struct place place)
+static void put_chunk(struct builder *b, const struct obstruction_set *set, const uint32_t *faces,
+                      uint32_t count, struct place place)
 {
     uint32_t node = tree_add_node(b->tree, MESH_NONE);
     for (uint32_t i = 0; i < count; i++) {
@@ -323,8 +325,8 @@ static void build_task(struct builder *b, const struct task *task)
         return;
     }
     struct obstruction_set set;
-    obstruction_set_begin(&set, b->mesh, b->arrangement, b->pieces, b->tolerance,
-                          task->items, task->count);
+    obstruction_set_begin(&set, b->mesh, b->arrangement, b->pieces, b->tolerance, task->items,
+                          task->count);
     make_sequence(b, &set, task->place);
     b->tree->relations += set.relations;
     obstruction_set_free(&set);

@@ -25,15 +25,13 @@ void obstruction_cut(struct obstruction_cuts *cuts, struct arrangement *arrangem
         uint32_t made[2];
         split_piece(&cuts->splitter, arrangement, pieces, piece, plane, &made[0], &made[1]);
         cuts->parts = xgrow(cuts->parts, &cuts->capacity, cuts->count + 1, sizeof *cuts->parts);
-        cuts->parts[cuts->count++] = (struct obstruction_parts){
-            { with_area(pieces, made[0]), with_area(pieces, made[1]) }
-        };
+        cuts->parts[cuts->count++] = (struct obstruction_parts){ { with_area(pieces, made[0]),
+                                                                   with_area(pieces, made[1]) } };
     }
     map64_put(&cuts->by_side, face, found);
     for (int k = 0; k < 2; k++) {
         uint32_t part = cuts->parts[found].piece[k];
-        parts[k] = part == MESH_NONE ? OW_ITEM_NONE
-                                     : tree_item_of(tree_item_tag(face), part);
+        parts[k] = part == MESH_NONE ? OW_ITEM_NONE : tree_item_of(tree_item_tag(face), part);
     }
 }
 

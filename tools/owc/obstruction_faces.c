@@ -42,8 +42,7 @@ static void set_sphere(const struct obstruction_set *set, struct obstruction_fac
 static void set_plane(const struct obstruction_set *set, struct obstruction_face *face)
 {
     const struct plane *plane = &set->arrangement->planes->all[face->plane];
-    double length = sqrt(plane->normal[0] * plane->normal[0] +
-                         plane->normal[1] * plane->normal[1] +
+    double length = sqrt(plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
                          plane->normal[2] * plane->normal[2]);
     for (int k = 0; k < 3; k++) {
         face->normal[k] = face->sign * plane->normal[k] / length;
@@ -192,9 +191,8 @@ static uint32_t part_above(const struct obstruction_set *set, const struct obstr
 enum { USUAL_CORNERS = 32 };
 
 /* The part of p above p_offset and that of q above q_offset, as seen along the normal. */
-bool obstruction_parts_overlap(const struct obstruction_set *set,
-                               const struct obstruction_face *p, double p_offset,
-                               const struct obstruction_face *q, double q_offset,
+bool obstruction_parts_overlap(const struct obstruction_set *set, const struct obstruction_face *p,
+                               double p_offset, const struct obstruction_face *q, double q_offset,
                                const double normal[3])
 {
     double few[2][USUAL_CORNERS][3];
@@ -204,11 +202,10 @@ bool obstruction_parts_overlap(const struct obstruction_set *set,
     uint32_t most = 2 * (p->count > q->count ? p->count : q->count);
     double(*points)[3] = most > USUAL_CORNERS ? xalloc(2 * (size_t)most, sizeof *points) : few[0];
     double(*more)[3] = most > USUAL_CORNERS ? points + most : few[1];
-    struct outline a = { (const double(*)[3])points,
-                         part_above(set, p, normal, p_offset, points) };
+    struct outline a = { (const double(*)[3])points, part_above(set, p, normal, p_offset, points) };
     struct outline b = { (const double(*)[3])more, part_above(set, q, normal, q_offset, more) };
-    bool overlap = a.count > 2 && b.count > 2 &&
-                   outlines_overlap(&a, &b, normal, set->tolerance / 2);
+    bool overlap =
+        a.count > 2 && b.count > 2 && outlines_overlap(&a, &b, normal, set->tolerance / 2);
     if (points != few[0]) {
         free(points);
     }

@@ -30,14 +30,14 @@ struct obstruction_face {
     double sure;      /* a rounded height beyond this decides the side */
     double on;        /* and one up to this is on the plane */
     double centre[3];
-    double radius;    /* of a sphere about the centre with all corners */
-    size_t first;     /* corners: points of the set */
+    double radius; /* of a sphere about the centre with all corners */
+    size_t first;  /* corners: points of the set */
     uint32_t count;
     uint32_t piece;
     uint32_t plane;
     uint32_t polygon; /* place in the file */
     tree_item item;
-    int sign;         /* -1: it looks against its plane's normal */
+    int sign; /* -1: it looks against its plane's normal */
 };
 
 struct obstruction_set {
@@ -47,9 +47,9 @@ struct obstruction_set {
     struct obstruction_face *faces;
     uint32_t count;
     double (*points)[3];
-    double tolerance; /* of the relation, lattice steps */
-    double step;      /* of the planes' side tests */
-    double slack;     /* reaching across a switch's plane by so little does no harm */
+    double tolerance;   /* of the relation, lattice steps */
+    double step;        /* of the planes' side tests */
+    double slack;       /* reaching across a switch's plane by so little does no harm */
     uint64_t relations; /* pairs that were compared */
 };
 
@@ -71,9 +71,8 @@ bool obstruction_stacked(const struct obstruction_set *set, const struct obstruc
  * Do parts of two faces overlap as seen along a normal: of p what lies where
  * normal.x + p_offset >= 0, of q likewise? INFINITY: all of it.
  */
-bool obstruction_parts_overlap(const struct obstruction_set *set,
-                               const struct obstruction_face *p, double p_offset,
-                               const struct obstruction_face *q, double q_offset,
+bool obstruction_parts_overlap(const struct obstruction_set *set, const struct obstruction_face *p,
+                               double p_offset, const struct obstruction_face *q, double q_offset,
                                const double normal[3]);
 
 /* Do two faces of one plane record that look the same way overlap? */

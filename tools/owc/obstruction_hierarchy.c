@@ -243,8 +243,7 @@ static bool may_hold(const struct hierarchy *h, const struct hierarchy_node *nod
     return false;
 }
 
-static bool stands(const struct hierarchy *h, uint32_t face, uint32_t other,
-                   enum hierarchy_way way)
+static bool stands(const struct hierarchy *h, uint32_t face, uint32_t other, enum hierarchy_way way)
 {
     const struct obstruction_face *f = &h->set->faces[face];
     const struct obstruction_face *o = &h->set->faces[other];
@@ -280,8 +279,8 @@ static uint32_t find_in_leaf(const struct hierarchy *h, const struct hierarchy_n
 {
     for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
         uint32_t other = h->faces[i];
-        if (!h->visited[other] && (among_coplanar ? stands_coplanar(h, face, other, way)
-                                                  : stands(h, face, other, way))) {
+        if (!h->visited[other] &&
+            (among_coplanar ? stands_coplanar(h, face, other, way) : stands(h, face, other, way))) {
             return other;
         }
     }

@@ -26,8 +26,8 @@ static void heights_of(const struct obstruction_set *set, const struct obstructi
     range[0] = INFINITY;
     range[1] = -INFINITY;
     for (uint32_t i = 0; i < face->count; i++) {
-        double height = normal[0] * points[i][0] + normal[1] * points[i][1] +
-                        normal[2] * points[i][2] + offset;
+        double height =
+            normal[0] * points[i][0] + normal[1] * points[i][1] + normal[2] * points[i][2] + offset;
         range[0] = height < range[0] ? height : range[0];
         range[1] = height > range[1] ? height : range[1];
     }
@@ -36,8 +36,7 @@ static void heights_of(const struct obstruction_set *set, const struct obstructi
 enum obstruction_place obstruction_place_of(const struct obstruction_set *set,
                                             const struct obstruction_face *face, uint32_t plane)
 {
-    return (enum obstruction_place)split_side_of(set->arrangement, set->pieces, face->piece,
-                                                 plane);
+    return (enum obstruction_place)split_side_of(set->arrangement, set->pieces, face->piece, plane);
 }
 
 /* ---- candidates ---- */
@@ -47,8 +46,8 @@ struct candidate {
     double offset;
     int32_t n[3];
     int64_t d;
-    uint32_t record; /* MESH_NONE: a new plane */
-    double score;    /* the less, the better */
+    uint32_t record;          /* MESH_NONE: a new plane */
+    double score;             /* the less, the better */
     const double *through[3]; /* points that it goes through, or NULL */
 };
 
@@ -169,8 +168,7 @@ static void enter_own(struct chooser *c, uint32_t record)
 }
 
 /* The plane with this normal, of any length, through a point. False: the normal is none. */
-static bool make_plane(struct candidate *candidate, const double normal[3],
-                       const double point[3])
+static bool make_plane(struct candidate *candidate, const double normal[3], const double point[3])
 {
     const double limit = (1 << NORMAL_BITS) - 1;
     double greatest = fmax(fabs(normal[0]), fmax(fabs(normal[1]), fabs(normal[2])));
@@ -340,8 +338,7 @@ static bool best_gap(const struct chooser *c, const struct bound *bounds, double
         if (ended == 0 || begun == count || !(bounds[i + 1].at > bounds[i].at)) {
             continue;
         }
-        double score = begun - ended - c->effort->balance * count *
-                                           entropy(begun, count - ended);
+        double score = begun - ended - c->effort->balance * count * entropy(begun, count - ended);
         if (score < best) {
             best = score;
             *at = (bounds[i].at + bounds[i + 1].at) / 2;

@@ -194,9 +194,8 @@ static void sort_out(struct keeper *k, uint32_t count)
     }
 }
 
-uint32_t obstruction_keep_whole(struct obstruction_set *set, const double normal[3],
-                                double offset, const uint32_t *faces, uint32_t count,
-                                uint8_t *places)
+uint32_t obstruction_keep_whole(struct obstruction_set *set, const double normal[3], double offset,
+                                const uint32_t *faces, uint32_t count, uint8_t *places)
 {
     struct keeper k = { .set = set,
                         .lenient = set->tolerance > set->step,

@@ -13,8 +13,7 @@
  * Changes OBSTRUCTION_ACROSS to OBSTRUCTION_FRONT or OBSTRUCTION_BACK where
  * the face may stay whole there. Returns how many are left to cut.
  */
-uint32_t obstruction_keep_whole(struct obstruction_set *set, const double normal[3],
-                                double offset, const uint32_t *faces, uint32_t count,
-                                uint8_t *places);
+uint32_t obstruction_keep_whole(struct obstruction_set *set, const double normal[3], double offset,
+                                const uint32_t *faces, uint32_t count, uint8_t *places);
 
 #endif

@@ -47,7 +47,6 @@ void pieces_free(struct pieces *pieces);
 
 /* Begins a new piece; corners are then appended to it. */
 uint32_t pieces_add(struct pieces *pieces, uint32_t polygon, uint32_t record);
-void pieces_add_corner(struct pieces *pieces, uint32_t vertex, uint32_t edge,
-                       const float *normal);
+void pieces_add_corner(struct pieces *pieces, uint32_t vertex, uint32_t edge, const float *normal);
 
 #endif

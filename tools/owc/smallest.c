@@ -48,8 +48,7 @@ static uint32_t count_polygons(const struct attempt *a)
     return count;
 }
 
-static void attempt_begin(struct attempt *a, const struct planes *planes,
-                          const struct mesh *mesh)
+static void attempt_begin(struct attempt *a, const struct planes *planes, const struct mesh *mesh)
 {
     a->planes = *planes;
     a->planes.capacity = planes->count;
@@ -102,8 +101,8 @@ static bool is_better(const struct attempt *a, const struct attempt *b)
 }
 
 void smallest_build(struct tree *tree, struct arrangement *arrangement, struct planes *planes,
-                    struct pieces *pieces, const struct mesh *mesh,
-                    const struct strategy *strategy, struct progress *progress)
+                    struct pieces *pieces, const struct mesh *mesh, const struct strategy *strategy,
+                    struct progress *progress)
 {
     struct attempt *best = NULL;
     bool fine = true;

@@ -217,17 +217,16 @@ static uint32_t put_piece(struct cut *cut, bool front)
         put_edge(cut, i, front, &crossing);
     }
     struct piece *piece = &pieces->all[number];
-    if (piece->count > 1 && pieces->vertices[pieces->corner_count - 1] ==
-                                pieces->vertices[piece->first]) {
+    if (piece->count > 1 &&
+        pieces->vertices[pieces->corner_count - 1] == pieces->vertices[piece->first]) {
         piece->count--;
         pieces->corner_count--;
     }
     return number;
 }
 
-void split_piece(struct splitter *splitter, struct arrangement *arrangement,
-                 struct pieces *pieces, uint32_t piece, uint32_t plane, uint32_t *front,
-                 uint32_t *back)
+void split_piece(struct splitter *splitter, struct arrangement *arrangement, struct pieces *pieces,
+                 uint32_t piece, uint32_t plane, uint32_t *front, uint32_t *back)
 {
     struct cut cut = { splitter, arrangement, pieces, pieces->all[piece], plane, 0, 0 };
     find_sides(&cut);

@@ -13,8 +13,8 @@ uint32_t tree_add_node(struct tree *tree, uint32_t plane)
     if (tree->node_count == 1u << 30) {
         fail(FAIL_INPUT, NULL, 0, "the tree has more than %u nodes", 1u << 30);
     }
-    tree->nodes = xgrow(tree->nodes, &tree->node_capacity, (size_t)tree->node_count + 1,
-                        sizeof *tree->nodes);
+    tree->nodes =
+        xgrow(tree->nodes, &tree->node_capacity, (size_t)tree->node_count + 1, sizeof *tree->nodes);
     tree->nodes[tree->node_count] =
         (struct tree_node){ plane, OW_ITEM_NONE, OW_ITEM_NONE, tree->item_count, 0 };
     return tree->node_count++;
@@ -22,8 +22,8 @@ uint32_t tree_add_node(struct tree *tree, uint32_t plane)
 
 void tree_add_item(struct tree *tree, uint32_t node, tree_item item)
 {
-    tree->items = xgrow(tree->items, &tree->item_capacity, tree->item_count + 1,
-                        sizeof *tree->items);
+    tree->items =
+        xgrow(tree->items, &tree->item_capacity, tree->item_count + 1, sizeof *tree->items);
     tree->items[tree->item_count++] = item;
     tree->nodes[node].count++;
 }
@@ -59,8 +59,8 @@ static uint32_t prune_items(struct tree *tree, struct tree_node *node, const tre
         uint32_t value = tree_item_value(item);
         bool is_node = tree_item_tag(item) == OW_ITEM_NODE;
         item = is_node ? pruned[value] : item;
-        uint32_t more = is_node ? item != OW_ITEM_NONE
-                                : first_outline[value + 1] - first_outline[value];
+        uint32_t more =
+            is_node ? item != OW_ITEM_NONE : first_outline[value + 1] - first_outline[value];
         if (more > 0) {
             tree->items[node->first + kept++] = item;
         }
@@ -73,8 +73,7 @@ static uint32_t prune_items(struct tree *tree, struct tree_node *node, const tre
 static tree_item prune_node(struct tree *tree, uint32_t number, const tree_item *pruned,
                             const uint32_t *first_outline, const uint32_t *plane_of)
 {
-    tree_item front = prune_child(tree, tree->nodes[number].front, pruned, first_outline,
-                                  plane_of);
+    tree_item front = prune_child(tree, tree->nodes[number].front, pruned, first_outline, plane_of);
     tree_item back = prune_child(tree, tree->nodes[number].back, pruned, first_outline, plane_of);
     struct tree_node *node = &tree->nodes[number];
     node->front = front;

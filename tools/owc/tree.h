@@ -32,7 +32,7 @@ struct tree_node {
     uint32_t plane;  /* of a switch; MESH_NONE: a sequence */
     tree_item front; /* of a switch: children, or OW_ITEM_NONE */
     tree_item back;
-    size_t first;    /* items: a sequence's, or the faces in a switch's plane */
+    size_t first; /* items: a sequence's, or the faces in a switch's plane */
     uint32_t count;
 };
 

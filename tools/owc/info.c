@@ -2,54 +2,18 @@
 /* Checking and describing a blob. */
 #include "info.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "blob_file.h"
 #include "ow_read.h"
 #include "ow_tree.h"
-#include "tools/common/fail.h"
 #include "tools/common/outfile.h"
 #include "tools/common/xalloc.h"
 
 #define AT(name) ((uint32_t)offsetof(struct ow_disk_header, name))
-
-static uint8_t *read_blob(const char *path, uint32_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        fail(FAIL_INPUT, path, 0, "cannot be read: %s", strerror(errno));
-    }
-    uint8_t *bytes = NULL;
-    size_t capacity = 0;
-    size_t used = 0;
-    size_t got;
-    do {
-        bytes = xgrow(bytes, &capacity, used + 65536, 1);
-        got = fread(bytes + used, 1, capacity - used, file);
-        used += got;
-    } while (got > 0 && used <= OW_MAX_BLOB_BYTES);
-    if (ferror(file)) {
-        fail(FAIL_INPUT, path, 0, "cannot be read: %s", strerror(errno));
-    }
-    fclose(file);
-    if (used > OW_MAX_BLOB_BYTES) {
-        fail(FAIL_INPUT, path, 0, "is larger than a tree can be (%d bytes)", OW_MAX_BLOB_BYTES);
-    }
-    *size = (uint32_t)used;
-    return bytes;
-}
-
-static double read_double(const uint8_t *bytes, uint32_t at)
-{
-    uint64_t bits = ow_read_u32(bytes, at) | (uint64_t)ow_read_u32(bytes, at + 4) << 32;
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 /* What the nodes and records hold. */
 struct census {
@@ -129,22 +93,18 @@ static void print_flags(FILE *out, uint32_t flags)
     fputc('\n', out);
 }
 
-static void print_header(FILE *out, const struct ow_tree *tree)
+static void print_header(FILE *out, const struct blob_file *file)
 {
-    const uint8_t *bytes = tree->bytes;
-    double origin[3];
-    for (uint32_t i = 0; i < 3; i++) {
-        origin[i] = read_double(bytes, AT(origin_bits) + 8 * i);
-    }
-    uint32_t tolerance = ow_read_u32(bytes, AT(tolerance_q8));
+    const struct ow_tree *tree = &file->tree;
+    const struct lattice *lattice = &file->lattice;
     fprintf(out, "format         version %u, CRC-32 %08" PRIX32 ", valid\n", OW_BLOB_VERSION,
-            ow_read_u32(bytes, AT(crc32)));
+            ow_read_u32(tree->bytes, AT(crc32)));
     print_flags(out, tree->flags);
-    fprintf(out, "lattice        step %.17g, origin %.17g,%.17g,%.17g\n",
-            read_double(bytes, AT(step_bits)), origin[0], origin[1], origin[2]);
+    fprintf(out, "lattice        step %.17g, origin %.17g,%.17g,%.17g\n", lattice->step,
+            lattice->origin[0], lattice->origin[1], lattice->origin[2]);
     fprintf(out, "box            %d,%d,%d to %d,%d,%d\n", tree->box_min[0], tree->box_min[1],
             tree->box_min[2], tree->box_max[0], tree->box_max[1], tree->box_max[2]);
-    fprintf(out, "tolerance      %g lattice steps\n", tolerance / 256.0);
+    fprintf(out, "tolerance      %g lattice steps\n", file->tolerance_q8 / 256.0);
 }
 
 static void print_tree(FILE *out, const struct ow_tree *tree, const struct census *census)
@@ -187,23 +147,18 @@ static void print_bytes(FILE *out, const struct ow_tree *tree)
 
 void info_print(const char *path)
 {
-    uint32_t size;
-    struct ow_tree tree;
-    uint8_t *bytes = read_blob(path, &size);
-    enum ow_status status = ow_tree_open(&tree, bytes, size);
-    if (status != OW_OK) {
-        fail(FAIL_INPUT, path, 0, "%s", ow_status_text(status));
-    }
+    struct blob_file file;
+    blob_file_open(&file, path);
     struct census *census = xalloc_zero(1, sizeof *census);
-    count_nodes(&tree, census);
-    count_polygons(&tree, census);
+    count_nodes(&file.tree, census);
+    count_polygons(&file.tree, census);
     struct outfile *out = outfile_open("-");
     FILE *stream = outfile_stream(out);
     fprintf(stream, "file           %s\n", path);
-    print_header(stream, &tree);
-    print_tree(stream, &tree, census);
-    print_bytes(stream, &tree);
+    print_header(stream, &file);
+    print_tree(stream, &file.tree, census);
+    print_bytes(stream, &file.tree);
     outfile_commit(out);
     free(census);
-    free(bytes);
+    blob_file_close(&file);
 }

@@ -20,7 +20,8 @@ static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bound
     struct ow_box box;
     return (frame->rule == OW_WINDING_POSITIVE && ow_cone_looks_away(frame->view, &bounds)) ||
            !ow_sphere_box(&frame->frustum, &bounds, &frame->window, &box) ||
-           (frame->kind->hides != NULL && frame->kind->hides(&frame->surface, &box));
+           (frame->kind != NULL && frame->kind->hides != NULL &&
+            frame->kind->hides(&frame->surface, &box)); /* not yet aimed: a list is being made */
 }
 
 /* A stamp that no entry of the cache has yet: what is cached is one frame's. */

@@ -51,6 +51,10 @@ oldwell-565-dither: =oldwell-high: : --orbit 2 --size 160x120 --format rgb565 --
 oldwell-332-dither: =oldwell-high: : --orbit 2 --size 160x120 --format rgb332 --dither
 oldwell-gray4-dither: =oldwell-high: : --orbit 2 --size 161x120 --format gray4 --dither
 oldwell-mono-dither: =oldwell-high: : --orbit 2 --size 161x120 --format mono --dither
+oldwell-obstruction: oldwell --detail high: --keep-ids --method obstruction:
+    --orbit 8 --size 320x240
+atoms-obstruction: atoms: --keep-ids --method obstruction: --orbit 8 --size 320x240
+klein-obstruction: klein: --keep-ids --method obstruction: --orbit 8 --size 160x120
 klein: klein: --keep-ids: --orbit 8 --size 160x120
 klein-lines: =klein: : --orbit 4 --size 160x120 --shade lines --depth-cue 40,80
 klein-cool: =klein: : --orbit 4 --size 160x120 --map cool

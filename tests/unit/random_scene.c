@@ -77,6 +77,7 @@ void random_scene_make(struct random_scene *scene, uint32_t count, bool normals)
 {
     struct builder *b = builder_new(OW_TREE_IDS | (normals ? OW_TREE_NORMALS : 0u));
     uint32_t root = builder_sequence(b);
+    builder_bound(b, root); /* so that drawing asks whether it can be skipped */
     memset(scene, 0, sizeof *scene);
     assert_true(count <= BUILDER_COLOURS);
     for (uint32_t i = 0; i < count; i++) {

@@ -290,7 +290,8 @@ static void climb(struct chooser *c, struct candidate *candidate)
         const double *through[3];
         struct candidate next;
         memcpy(through, candidate->through, sizeof through);
-        through[random_below(c->random, 3)] = any_corner(c, cut_face(c, candidate));
+        const double *corner = any_corner(c, cut_face(c, candidate)); /* drawn first */
+        through[random_below(c->random, 3)] = corner;
         if (!make_through(&next, through[0], through[1], through[2])) {
             continue;
         }

@@ -64,10 +64,6 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     if (!workspace_fits(workspace, tree, view) || !ow_look_fits(look, workspace)) {
         return OW_ARGUMENT;
     }
-    if ((look->budget > 0 && look->order != OW_FRONT_TO_BACK) ||
-        (look->coverage && look->backdrop != NULL)) {
-        return OW_ARGUMENT;
-    }
     if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
         return OW_NORMALS;
     }

@@ -8,19 +8,6 @@
 #include "ow_lines.h"
 #include "ow_project.h"
 
-/* Computes a vertex's place on the screen into its entry of the cache. */
-static void project_vertex(const struct ow_frame *frame, uint32_t vertex,
-                           struct ow_cached_vertex *cached)
-{
-    struct ow_camera_point p = ow_to_camera(frame->tree, frame->view, vertex);
-    cached->tag = frame->tag | vertex;
-    if (ow_is_inside(frame->view, p)) {
-        cached->point = ow_to_screen(frame->view, p);
-    } else {
-        cached->point.x = OW_CLIP_FIRST;
-    }
-}
-
 /* The face's outline by way of the clipper. Returns its count of points, 0 for none. */
 static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face, uint32_t corners)
 {
@@ -64,7 +51,8 @@ static inline struct ow_outline_point look_up(const struct ow_frame *frame, uint
     struct ow_workspace *workspace = frame->workspace;
     struct ow_cached_vertex *cached = &workspace->cache[vertex & workspace->cache_mask];
     if (cached->tag != (frame->tag | vertex)) {
-        project_vertex(frame, vertex, cached);
+        cached->tag = frame->tag | vertex;
+        cached->point = ow_project_vertex(frame->tree, frame->view, vertex);
     }
     return cached->point;
 }

@@ -11,6 +11,10 @@ bool ow_look_fits(const struct ow_look *look, const struct ow_workspace *workspa
     if ((uint32_t)look->map > OW_MAP_SPECTRUM || (uint32_t)look->shade > OW_SHADE_LINES) {
         return false;
     }
-    return !look->coverage || (workspace->samples != NULL && look->order == OW_FRONT_TO_BACK &&
-                               look->shade != OW_SHADE_ID && look->shade != OW_SHADE_LINES);
+    if (look->budget > 0 && look->order != OW_FRONT_TO_BACK) {
+        return false;
+    }
+    return !look->coverage || (workspace->samples != NULL && look->backdrop == NULL &&
+                               look->order == OW_FRONT_TO_BACK && look->shade != OW_SHADE_ID &&
+                               look->shade != OW_SHADE_LINES);
 }

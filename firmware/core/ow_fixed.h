@@ -3,7 +3,7 @@
  * Numbers: fixed-point types and the few functions that need a quotient or a
  * root. A name says its Q format: _q30 has 30 fraction bits. Shifts of
  * negative numbers are arithmetic (floor), which every compiler in use does
- * and open.c asserts.
+ * and is asserted below.
  */
 #ifndef OW_FIXED_H
 #define OW_FIXED_H
@@ -46,11 +46,8 @@ static inline uint32_t ow_leading_zeros(uint32_t x)
  */
 static inline uint32_t ow_reciprocal(uint32_t x)
 {
-    uint32_t seed = 0xFFFFFFFFu / (x >> 16); /* 2^48 / x, 16 to 17 bits */
-    if (seed > 0x1FFFF) {
-        seed = 0x1FFFF;
-    }
-    uint32_t y = seed << 15; /* 2^63 / x; the seed is at least 2^16 */
+    uint32_t seed = 0xFFFFFFFFu / (x >> 16);                /* 2^48 / x: 2^16 .. 2^17-1 */
+    uint32_t y = seed << 15;                                /* 2^63 / x */
     uint32_t residue = (uint32_t)(((uint64_t)x * y) >> 32); /* x * y in 2^31 units: near 2^31 */
     uint32_t correction = 0u - residue;                     /* 2 - x * y, same units */
     uint64_t refined = ((uint64_t)y * correction) >> 31;

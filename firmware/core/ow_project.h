@@ -114,6 +114,15 @@ static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
     return (struct ow_outline_point){ OW_SUB / 2 * view->width + x, OW_SUB / 2 * view->height - y };
 }
 
+/* A vertex's place on the screen, or OW_CLIP_FIRST in x. */
+static inline struct ow_outline_point ow_project_vertex(const struct ow_tree *tree,
+                                                        const struct ow_view *view, uint32_t vertex)
+{
+    struct ow_camera_point p = ow_to_camera(tree, view, vertex);
+    return ow_is_inside(view, p) ? ow_to_screen(view, p)
+                                 : (struct ow_outline_point){ OW_CLIP_FIRST, 0 };
+}
+
 /* Projects every vertex of the tree into cache[0 .. vertex_count-1]; the tags are left alone. */
 void ow_project_all(const struct ow_tree *tree, const struct ow_view *view,
                     struct ow_cached_vertex *cache);

@@ -11,11 +11,6 @@ void ow_project_all(const struct ow_tree *tree, const struct ow_view *view,
     const struct ow_tree t = *tree; /* copies, so that no store can touch what the loop reads */
     const struct ow_view v = *view;
     for (uint32_t i = 0; i < t.vertex_count; i++) {
-        struct ow_camera_point p = ow_to_camera(&t, &v, i);
-        if (ow_is_inside(&v, p)) {
-            cache[i].point = ow_to_screen(&v, p);
-        } else {
-            cache[i].point.x = OW_CLIP_FIRST;
-        }
+        cache[i].point = ow_project_vertex(&t, &v, i);
     }
 }

@@ -68,6 +68,7 @@ static void add_stats(struct ow_stats *sum, const struct ow_stats *part)
     sum->polygons_unlisted += part->polygons_unlisted;
     sum->polygons_dropped += part->polygons_dropped;
 }
+
 /* Has all workers do their part. A capacity or budget that ran out is noted, not a failure. */
 static int draw_together(struct slices *slices)
 {

@@ -221,12 +221,5 @@ clean: ## remove what was built, packages fetched for other machines excepted
 bench: programs ## the orders, shades and threads side by side (minutes)
 	@scripts/bench
 
-.PHONY: size vm-check run image flash
-size vm-check run image flash:
-	@echo "make: $@ is not there yet" >&2; exit 2
-ifneq ($(BOARD),sim)
-all programs: no-board
-.PHONY: no-board
-no-board:
-	@echo "make: BOARD=$(BOARD) is not there yet; there is BOARD=sim" >&2; exit 2
-endif
+# Targets of the chip boards and the Linux boards, a file each.
+include $(wildcard mk/*.mk)

@@ -28,7 +28,9 @@ static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bound
 static uint32_t next_stamp(struct ow_workspace *workspace)
 {
     if (++workspace->stamp > 255) {
-        memset(workspace->cache, 0, (size_t)workspace->cache_entries * sizeof *workspace->cache);
+        if (workspace->cache_mask != OW_CACHE_ALL) {
+            memset(workspace->tags, 0, (size_t)workspace->cache_entries * sizeof *workspace->tags);
+        }
         workspace->stamp = 1;
     }
     return workspace->stamp << 24;
@@ -89,7 +91,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     if (status == OW_OK && workspace->cache_mask == OW_CACHE_ALL) {
-        ow_project_all(tree, view, workspace->cache);
+        ow_project_vertices(tree, view, 0, tree->vertex_count, workspace->points);
     }
     if (status == OW_OK && look->order == OW_SCAN_LINE) {
         status = ow_scan_lines_begin(frame);
@@ -108,6 +110,7 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     frame->window.end_line = target->first_line + target->line_count;
     frame->background = target->format->pack(frame->look->background);
     surface->target = target;
+    surface->top = (uintptr_t)target->pixels - (uintptr_t)target->first_line * target->stride;
     surface->width = frame->view->width;
     surface->unlit = workspace->unlit;
     surface->open_pixels = workspace->open_pixels;
@@ -130,12 +133,23 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     ow_surface_choose_write(surface, frame->look);
 }
 
+/* Small triangles: all vertices are projected, and only fronts are seen. */
+static bool goes_the_fast_way(const struct ow_frame *frame)
+{
+    return frame->workspace->cache_mask == OW_CACHE_ALL && frame->rule == OW_WINDING_POSITIVE &&
+           frame->draw_face == NULL && frame->look->budget == 0 &&
+           frame->workspace->span_capacity >= OW_SMALL_SPANS;
+}
+
 void ow_frame_walk(struct ow_frame *frame)
 {
     (void)begin_walk(frame, frame->kind->direction); /* ow_draw_begin has seen that it can */
     const struct ow_surface *surface = &frame->surface;
     const uint32_t before = surface->pixels_written;
     const uint32_t budget = frame->look->budget > 0 ? frame->look->budget : UINT32_MAX;
+    if (goes_the_fast_way(frame)) {
+        ow_draw_small(frame);
+    }
     while (surface->lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
         if (frame->walk.faces_met + (surface->pixels_written - before) / PIXELS_A_UNIT > budget) {
             frame->out_of_budget = true;

@@ -49,41 +49,30 @@ static inline uint32_t read_corner(const uint8_t *corners, uint32_t i, bool wide
 static inline struct ow_outline_point look_up(const struct ow_frame *frame, uint32_t vertex)
 {
     struct ow_workspace *workspace = frame->workspace;
-    struct ow_cached_vertex *cached = &workspace->cache[vertex & workspace->cache_mask];
-    if (cached->tag != (frame->tag | vertex)) {
-        cached->tag = frame->tag | vertex;
-        cached->point = ow_project_vertex(frame->tree, frame->view, vertex);
+    uint32_t entry = vertex & workspace->cache_mask;
+    if (workspace->tags[entry] != (frame->tag | vertex)) {
+        workspace->tags[entry] = frame->tag | vertex;
+        workspace->points[entry] = ow_project_vertex(frame->tree, frame->view, vertex);
     }
-    return cached->point;
+    return workspace->points[entry];
 }
 
 /* Looks up all corners, last first if reverse. False if one must be clipped first. */
 static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *corner_bytes,
                                    uint32_t corners, bool wide, bool reverse)
 {
-    const struct ow_cached_vertex *cache = frame->workspace->cache;
+    const struct ow_outline_point *points = frame->workspace->points;
     const bool all = frame->workspace->cache_mask == OW_CACHE_ALL;
     const int32_t step = reverse ? -1 : 1;
     struct ow_outline_point *out = frame->workspace->outline + (reverse ? corners - 1 : 0);
     for (uint32_t i = 0; i < corners; i++, out += step) {
         uint32_t vertex = read_corner(corner_bytes, i, wide);
-        *out = all ? cache[vertex].point : look_up(frame, vertex);
+        *out = all ? points[vertex] : look_up(frame, vertex);
         if (out->x == OW_CLIP_FIRST) {
             return false;
         }
     }
     return true;
-}
-
-/* The commonest outline: a triangle's front with all vertices projected. */
-static inline bool look_up_triangle(const struct ow_frame *frame, const uint8_t *corner_bytes)
-{
-    const struct ow_cached_vertex *cache = frame->workspace->cache;
-    struct ow_outline_point *out = frame->workspace->outline;
-    out[0] = cache[read_corner(corner_bytes, 0, false)].point;
-    out[1] = cache[read_corner(corner_bytes, 1, false)].point;
-    out[2] = cache[read_corner(corner_bytes, 2, false)].point;
-    return out[0].x != OW_CLIP_FIRST && out[1].x != OW_CLIP_FIRST && out[2].x != OW_CLIP_FIRST;
 }
 
 /* The face's outline in workspace->outline. Returns its count of points, 0 for none. */
@@ -93,13 +82,9 @@ static uint32_t project_outline(struct ow_frame *frame, const struct ow_face *fa
     const uint8_t *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
     uint32_t corners = ow_read_u8(tree->bytes, face->at);
     bool wide = (tree->flags & OW_TREE_INDEX32) != 0;
-    bool ready;
-    if (corners == 3 && !wide && !face->reverse && frame->workspace->cache_mask == OW_CACHE_ALL) {
-        ready = look_up_triangle(frame, corner_bytes);
-    } else {
-        ready = look_up_corners(frame, corner_bytes, corners, wide, face->reverse);
-    }
-    return ready ? corners : clip_outline(frame, face, corners);
+    return look_up_corners(frame, corner_bytes, corners, wide, face->reverse)
+               ? corners
+               : clip_outline(frame, face, corners);
 }
 
 static void begin_gradient(struct ow_frame *frame)

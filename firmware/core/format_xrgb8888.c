@@ -3,6 +3,8 @@
 #include "ow_memory.h"
 #include "ow_pixel.h"
 
+enum { SHORT = 8 }; /* a span of so many pixels is filled one by one */
+
 static uint32_t same(uint32_t rgb)
 {
     return rgb & 0xFFFFFF;
@@ -32,6 +34,29 @@ static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
     }
 }
 
+static uint32_t fill_spans(uintptr_t top, uint32_t stride, const struct ow_span *spans,
+                           uint32_t count, uint32_t value)
+{
+    const struct ow_span *end = spans + count;
+    uint32_t word = ow_little32(value);
+    uint32_t pixels = 0;
+    for (; spans < end; spans++) {
+        uint8_t *row = (uint8_t *)(top + (uintptr_t)spans->line * stride);
+        uint32_t length = (uint32_t)spans->end - spans->first;
+        pixels += length;
+        if (length > SHORT) {
+            fill(row, spans->first, spans->end, value);
+            continue;
+        }
+        ow_word32 *pixel = (ow_word32 *)(void *)row + spans->first;
+        const ow_word32 *stop = pixel + length;
+        do {
+            *pixel++ = word;
+        } while (pixel < stop);
+    }
+    return pixels;
+}
+
 static void store(uint8_t *row, uint32_t first, uint32_t end, const uint32_t *rgb)
 {
     ow_word32 *pixel = (ow_word32 *)(void *)row;
@@ -52,6 +77,7 @@ const struct ow_pixel_format ow_format_xrgb8888 = {
     .pack = same,
     .unpack = same,
     .fill = fill,
+    .fill_spans = fill_spans,
     .store = store,
     .get = get,
 };

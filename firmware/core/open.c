@@ -255,6 +255,21 @@ static bool nodes_are_valid(const struct ow_tree *tree, struct tally *tally)
     return at == tree->polygons_at;
 }
 
+/* Whoever has looked at the box need not look at each vertex: it holds them all. */
+static bool vertices_are_valid(const struct ow_tree *tree)
+{
+    const uint8_t *place = tree->bytes + tree->vertices_at;
+    for (uint32_t v = 0; v < tree->vertex_count; v++) {
+        for (uint32_t i = 0; i < 3; i++, place += 2) {
+            int32_t coordinate = ow_read_i16(place, 0);
+            if (coordinate < tree->box_min[i] || coordinate > tree->box_max[i]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t size)
 {
     struct ow_tree found;
@@ -273,7 +288,8 @@ enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t si
     memset(&tally, 0, sizeof tally);
     if (!nodes_are_valid(&found, &tally) || tally.faces != found.face_count ||
         tally.switches != found.switch_count || tally.nodes != found.node_count ||
-        tally.depth != found.depth || tally.max_corners != found.max_corners) {
+        tally.depth != found.depth || tally.max_corners != found.max_corners ||
+        !vertices_are_valid(&found)) {
         return OW_CORRUPT;
     }
     *tree = found;

@@ -139,7 +139,7 @@ struct ow_stats {
 struct ow_workspace_config {
     uint16_t width; /* largest view to be drawn, pixels */
     uint16_t lines; /* most lines of a band */
-    /* Entries of the vertex cache, a power of two or 0: one for every vertex. 12 bytes each. */
+    /* Entries of the vertex cache, a power of two or 0: one for every vertex. 8 bytes each, 12 if they are fewer. */
     uint32_t cached_vertices;
     /*
      * Scan line order: most faces of a frame that can be listed, 16 bytes each and 4 a line of
@@ -155,8 +155,9 @@ struct ow_workspace_config {
 /* Private to the core, here so that the caller can place it. */
 struct ow_workspace {
     struct ow_frame *frame;
-    struct ow_walk_entry *stack;
-    struct ow_cached_vertex *cache;
+    struct ow_walk_run *stack;
+    struct ow_outline_point *points; /* of vertices: the cache */
+    uint32_t *tags;                  /* the frame's stamp in bits 24-31, the vertex number below */
     struct ow_outline_point *outline;
     struct ow_corner_light *corner_lights;
     struct ow_camera_point *clip[2];

@@ -69,6 +69,13 @@ bool ow_face_outline(struct ow_frame *frame, struct ow_box *box);
 /* Draws frame->face within the window. True if a pixel was written. */
 bool ow_draw_face(struct ow_frame *frame);
 
+/*
+ * Draws the walk to its end, small triangles the fast way. The workspace has a point for every
+ * vertex and OW_SMALL_SPANS spans, the rule is positive winding, there is no budget.
+ */
+enum { OW_SMALL_SPANS = 16 };
+void ow_draw_small(struct ow_frame *frame);
+
 /* The frame's sink: shades the face, unless that was done, and gives its spans to the surface. */
 void ow_paint_spans(struct ow_span_sink *sink);
 

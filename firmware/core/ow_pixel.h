@@ -8,6 +8,13 @@
 
 #include <stdint.h>
 
+/* Pixels first .. end-1 of a scan line. */
+struct ow_span {
+    uint16_t line;
+    uint16_t first;
+    uint16_t end;
+};
+
 struct ow_pixel_format {
     const char *name;
     uint8_t bits;  /* of a pixel, spare bits included */
@@ -23,6 +30,12 @@ struct ow_pixel_format {
     uint32_t (*dither)(uint32_t rgb, uint32_t threshold);
     /* Sets pixels first .. end-1 of a row to a packed value; row: aligned to 4 bytes. */
     void (*fill)(uint8_t *row, uint32_t first, uint32_t end, uint32_t value);
+    /*
+     * The same for count spans that are not empty; top: where line 0's row would be, stride
+     * bytes from a row to the next. Returns how many pixels that were. NULL: fill does.
+     */
+    uint32_t (*fill_spans)(uintptr_t top, uint32_t stride, const struct ow_span *spans,
+                           uint32_t count, uint32_t value);
     /* Packs end - first colours 0x00RRGGBB into pixels first .. end-1 of a row. */
     void (*store)(uint8_t *row, uint32_t first, uint32_t end, const uint32_t *rgb);
     /* The packed value of one pixel of a row. */

@@ -36,12 +36,7 @@ struct ow_outline_point {
     ow_sub8 y;
 };
 
-/* A vertex's place on the screen; OW_CLIP_FIRST in x: it has none before clipping. */
-struct ow_cached_vertex {
-    uint32_t tag; /* the frame's stamp in bits 24-31, the vertex number below */
-    struct ow_outline_point point;
-};
-
+/* In x of a vertex's place on the screen: it has none before clipping. */
 #define OW_CLIP_FIRST INT32_MIN
 
 /* The vertex number of corner i of the polygon record at byte offset at. */
@@ -52,14 +47,10 @@ static inline uint32_t ow_corner(const struct ow_tree *tree, uint32_t at, uint32
                                            : ow_read_u16(tree->bytes, first + 2 * i);
 }
 
-/* Vertex number vertex of the tree in camera units. */
-static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
-                                                  const struct ow_view *view, uint32_t vertex)
+/* A lattice point in camera units. */
+static inline struct ow_camera_point ow_lattice_to_camera(const struct ow_view *view, int64_t x,
+                                                          int64_t y, int64_t z)
 {
-    uint32_t at = tree->vertices_at + vertex * OW_VERTEX_BYTES;
-    int64_t x = ow_read_i16(tree->bytes, at);
-    int64_t y = ow_read_i16(tree->bytes, at + 2);
-    int64_t z = ow_read_i16(tree->bytes, at + 4);
     uint32_t shift = view->camera_shift - 8u;
     return (struct ow_camera_point){
         (int32_t)((view->right[0] * x + view->right[1] * y + view->right[2] * z +
@@ -72,6 +63,15 @@ static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
         { { 0, 0, 0, 0 } },
         false,
     };
+}
+
+/* Vertex number vertex of the tree in camera units. */
+static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
+                                                  const struct ow_view *view, uint32_t vertex)
+{
+    const uint8_t *place = tree->bytes + tree->vertices_at + vertex * OW_VERTEX_BYTES;
+    return ow_lattice_to_camera(view, ow_read_i16(place, 0), ow_read_i16(place, 2),
+                                ow_read_i16(place, 4));
 }
 
 /* How far from the axis a point at depth z may lie without being clipped. */
@@ -96,35 +96,56 @@ static inline bool ow_is_inside(const struct ow_view *view, struct ow_camera_poi
     return p.x <= reach && -p.x <= reach && p.y <= reach && -p.y <= reach;
 }
 
-/* The place on the screen of a point that is inside, rounded to the nearest. */
-static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
-                                                   struct ow_camera_point p)
+/* The place on the screen of a camera point times factor * 2^-shift, rounded to the nearest. */
+static inline struct ow_outline_point ow_scale_to_screen(const struct ow_view *view,
+                                                         struct ow_camera_point p, uint32_t factor,
+                                                         int32_t shift)
 {
-    uint32_t factor = view->scale.mantissa;
-    int32_t shift = view->scale.exponent;
-    if (view->projection == OW_PERSPECTIVE) {
-        uint32_t zeros = ow_leading_zeros((uint32_t)p.z);
-        uint32_t reciprocal = ow_reciprocal((uint32_t)p.z << zeros);
-        factor = (uint32_t)(((uint64_t)factor * reciprocal) >> 32);
-        shift += 31 - (int32_t)zeros;
-    }
     int64_t half = (int64_t)1 << (shift - 1);
     int32_t x = (int32_t)(((int64_t)p.x * factor + half) >> shift);
     int32_t y = (int32_t)(((int64_t)p.y * factor + half) >> shift);
     return (struct ow_outline_point){ OW_SUB / 2 * view->width + x, OW_SUB / 2 * view->height - y };
 }
 
-/* A vertex's place on the screen, or OW_CLIP_FIRST in x. */
-static inline struct ow_outline_point ow_project_vertex(const struct ow_tree *tree,
-                                                        const struct ow_view *view, uint32_t vertex)
+/* The place on the screen of a point that is inside; perspective. */
+static inline struct ow_outline_point ow_to_screen_perspective(const struct ow_view *view,
+                                                               struct ow_camera_point p)
 {
-    struct ow_camera_point p = ow_to_camera(tree, view, vertex);
+    uint32_t zeros = ow_leading_zeros((uint32_t)p.z);
+    uint32_t reciprocal = ow_reciprocal((uint32_t)p.z << zeros);
+    uint32_t factor = (uint32_t)(((uint64_t)view->scale.mantissa * reciprocal) >> 32);
+    return ow_scale_to_screen(view, p, factor, view->scale.exponent + 31 - (int32_t)zeros);
+}
+
+/* The same in the view's projection. */
+static inline struct ow_outline_point ow_to_screen(const struct ow_view *view,
+                                                   struct ow_camera_point p)
+{
+    return view->projection == OW_PERSPECTIVE
+               ? ow_to_screen_perspective(view, p)
+               : ow_scale_to_screen(view, p, view->scale.mantissa, view->scale.exponent);
+}
+
+/* A point's place on the screen, or OW_CLIP_FIRST in x. */
+static inline struct ow_outline_point ow_project_point(const struct ow_view *view,
+                                                       struct ow_camera_point p)
+{
     return ow_is_inside(view, p) ? ow_to_screen(view, p)
                                  : (struct ow_outline_point){ OW_CLIP_FIRST, 0 };
 }
 
-/* Projects every vertex of the tree into cache[0 .. vertex_count-1]; the tags are left alone. */
-void ow_project_all(const struct ow_tree *tree, const struct ow_view *view,
-                    struct ow_cached_vertex *cache);
+/* The same of a vertex. */
+static inline struct ow_outline_point ow_project_vertex(const struct ow_tree *tree,
+                                                        const struct ow_view *view, uint32_t vertex)
+{
+    return ow_project_point(view, ow_to_camera(tree, view, vertex));
+}
+
+/* Projects vertices first .. end-1 of the tree into points[first .. end-1]. */
+void ow_project_vertices(const struct ow_tree *tree, const struct ow_view *view, uint32_t first,
+                         uint32_t end, struct ow_outline_point *points);
+
+/* True if no vertex of the tree is OW_CLIP_FIRST, beyond doubt. */
+bool ow_needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view);
 
 #endif

@@ -5,9 +5,11 @@
  * The pixel rule: a pixel belongs to a face if the winding number of the
  * outline at the pixel's centre is positive (with OW_WINDING_ANY: not zero).
  * An edge crosses the scan lines whose centres lie in [top, bottom) of it, at
- * an x that is an exact function of its two endpoints; a centre on the edge
- * counts as right of it. So two faces that share an edge share no pixel and
- * leave none out.
+ * an x that depends on its two endpoints alone; a centre there counts as right
+ * of it. So two faces that share an edge share no pixel and leave none out.
+ * The x of an edge that reaches less than 120 pixels on both axes goes by its
+ * slope with 16 fraction bits, rounded towards 0, and is less than 1/500 pixel
+ * off; that of a longer edge is exact.
  */
 #ifndef OW_SCAN_H
 #define OW_SCAN_H
@@ -16,13 +18,6 @@
 #include <stdint.h>
 
 #include "ow_project.h"
-
-/* Pixels first .. end-1 of a scan line. */
-struct ow_span {
-    uint16_t line;
-    uint16_t first;
-    uint16_t end;
-};
 
 /* An edge on its way down the scan lines. Private to scan.c. */
 struct ow_scan_edge {
@@ -51,7 +46,8 @@ struct ow_box {
     int32_t right;
     int32_t line;
     int32_t end_line;
-    bool is_small; /* the outline reaches less than 120 pixels on each axis */
+    int32_t origin; /* the pixel column of the outline's leftmost point */
+    bool is_small;  /* the outline reaches less than 120 pixels on each axis */
 };
 
 /* Receives spans: line by line, from left to right, at most capacity at a time. */

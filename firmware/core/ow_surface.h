@@ -25,6 +25,7 @@ struct ow_surface {
     const struct ow_target *target;
     const struct ow_backdrop *backdrop; /* NULL: one colour */
     struct ow_changes *changes; /* to be marked at writing; NULL: nobody asks, or all were marked */
+    uintptr_t top;              /* where line 0 of the view would begin in the target */
     uint32_t width;
     uint32_t rgb;    /* of the face being scanned; the material's if it is smooth */
     uint32_t colour; /* the same packed, if it is not smooth */

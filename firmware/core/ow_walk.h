@@ -29,7 +29,8 @@ struct ow_face {
     bool reverse; /* the polygon's back: its outline is to be read backwards */
 };
 
-struct ow_walk_entry {
+/* Items that are to be met: the next one's byte offset in the blob, and how many are left. */
+struct ow_walk_run {
     uint32_t at;
     uint32_t left;
 };
@@ -47,11 +48,11 @@ struct ow_walk_skip {
 struct ow_walk {
     const struct ow_tree *tree;
     const struct ow_view *view;
-    struct ow_walk_entry *stack;
-    uint32_t entries; /* on the stack */
-    uint32_t run_at;  /* the items being read */
-    uint32_t run_left;
-    uint32_t faces_met; /* all faces the walk came by, rejected ones included */
+    struct ow_walk_run *stack;
+    uint32_t entries;       /* on the stack */
+    uint32_t step;          /* from an item to the next, bytes; modulo 2^32 */
+    struct ow_walk_run run; /* the items being read */
+    uint32_t faces_met;     /* all faces the walk came by, rejected ones included */
     uint32_t nodes_skipped;
     struct ow_walk_skip skip; /* set between begin and the first next; hides NULL: never */
     enum ow_direction direction;
@@ -63,7 +64,7 @@ struct ow_walk {
     int32_t doubt;       /* a face looks away for sure beyond this */
 };
 
-/* Bytes of stack that a walk of this tree needs: one entry a level. */
+/* Bytes of stack that a walk of this tree needs: two entries a level. */
 uint32_t ow_walk_stack_bytes(const struct ow_tree *tree);
 
 /*
@@ -72,7 +73,17 @@ uint32_t ow_walk_stack_bytes(const struct ow_tree *tree);
  */
 enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
                              const struct ow_view *view, enum ow_direction direction,
-                             enum ow_cull cull, struct ow_walk_entry *stack);
+                             enum ow_cull cull, struct ow_walk_run *stack);
+
+/*
+ * The walk in the parts that ow_walk_next is made of, for loops that draw many
+ * faces at once: ow_walk_to_face goes on to where the first item of walk->run is
+ * a face (false at the end); the loop takes items while they are faces, counts
+ * them in faces_met, and puts back into walk->run what is left of it.
+ * ow_walk_face tells an item's face; false if it surely cannot be seen.
+ */
+bool ow_walk_to_face(struct ow_walk *walk);
+bool ow_walk_face(struct ow_walk *walk, uint32_t item, struct ow_face *face);
 
 /*
  * The next face. Faces that look away are left out where their stored normal

@@ -7,37 +7,12 @@
  */
 #include "ow_scan.h"
 
-#include <stdbool.h>
+#include "scan_low.h"
 
 /* scan_4x4.c compiles this file a second time, for pixels a quarter as large. */
-#ifndef OW_SCAN_SUB_BITS
-#define OW_SCAN_SUB_BITS OW_SUB_BITS
-#endif
-enum {
-    SUB_BITS = OW_SCAN_SUB_BITS,
-    SUB = 1 << SUB_BITS,
-    HALF = SUB / 2 /* a pixel's centre */
-};
-
 /* The largest height and width of an edge: coordinates stay within OW_GUARD of the middle. */
 #define EDGE_MAX (2LL * OW_GUARD)
 _Static_assert(EDGE_MAX *(3 * SUB) < INT32_MAX, "what begin_edge divides fits 32 bits");
-
-/* The first line or pixel whose centre is at or beyond this coordinate. */
-static inline int32_t first_centre(ow_sub8 coordinate)
-{
-    return (coordinate - HALF + SUB - 1) >> SUB_BITS;
-}
-
-static inline ow_sub8 least(ow_sub8 a, ow_sub8 b)
-{
-    return a < b ? a : b;
-}
-
-static inline ow_sub8 most(ow_sub8 a, ow_sub8 b)
-{
-    return a > b ? a : b;
-}
 
 /* floor(n / d), and what is left. */
 static inline int32_t divide(int32_t n, uint32_t d, uint32_t *rest)
@@ -68,6 +43,42 @@ static void skip_lines(struct ow_scan_edge *edge, uint32_t lines, uint32_t heigh
     }
 }
 
+/* Stands the edge on edge->line by its slope. */
+static inline void begin_short_edge(struct ow_scan_edge *edge, struct ow_outline_point a,
+                                    struct ow_outline_point b)
+{
+    int32_t origin = a.x >> SUB_BITS;
+    struct short_edge at = short_edge(a, b, edge->line, origin);
+    edge->x = short_pixel(&at, origin);
+    edge->rest = at.place & (PLACE_ONE - 1);
+    edge->whole = PLACE_ONE;
+    edge->step = (int32_t)at.step >> PLACE_BITS;
+    edge->part = at.step & (PLACE_ONE - 1);
+}
+
+/* Stands the edge on edge->line, exactly; first is the first line it crosses. */
+static void begin_long_edge(struct ow_scan_edge *edge, struct ow_outline_point a,
+                            struct ow_outline_point b, int32_t first)
+{
+    uint32_t height = (uint32_t)(b.y - a.y);
+    int32_t across = b.x - a.x;
+    int32_t down = first * SUB + HALF - a.y; /* less than a line */
+    int32_t x = a.x - HALF;
+    edge->whole = height * SUB;
+    /* Pixels right of x's own, rounded up: three terms below SUB * EDGE_MAX. */
+    int32_t beyond = (x & (SUB - 1)) * (int32_t)height + down * across + (int32_t)edge->whole - 1;
+    edge->x = (x >> SUB_BITS) + divide(beyond, edge->whole, &edge->rest);
+    if (edge->end - first > 1) {
+        edge->step = divide(across, height, &edge->part);
+        edge->part *= SUB;
+        for (uint32_t lines = (uint32_t)(edge->line - first); lines > 0;) {
+            uint32_t some = lines < SKIP_LINES ? lines : SKIP_LINES;
+            skip_lines(edge, some, height);
+            lines -= some;
+        }
+    }
+}
+
 /*
  * Sets up the edge between two points for the given line or the first one it
  * crosses, if that is lower. False if it crosses no line from there to the end.
@@ -91,22 +102,10 @@ static inline bool begin_edge(struct ow_scan_edge *edge, struct ow_outline_point
     if (edge->line >= edge->end) {
         return false;
     }
-    uint32_t height = (uint32_t)(b.y - a.y);
-    int32_t across = b.x - a.x;
-    int32_t down = first * SUB + HALF - a.y; /* less than a line */
-    int32_t x = a.x - HALF;
-    edge->whole = height * SUB;
-    /* Pixels right of x's own, rounded up: three terms below SUB * EDGE_MAX. */
-    int32_t beyond = (x & (SUB - 1)) * (int32_t)height + down * across + (int32_t)edge->whole - 1;
-    edge->x = (x >> SUB_BITS) + divide(beyond, edge->whole, &edge->rest);
-    if (edge->end - first > 1) {
-        edge->step = divide(across, height, &edge->part);
-        edge->part *= SUB;
-        for (uint32_t lines = (uint32_t)(edge->line - first); lines > 0;) {
-            uint32_t some = lines < SKIP_LINES ? lines : SKIP_LINES;
-            skip_lines(edge, some, height);
-            lines -= some;
-        }
+    if (is_short(b.x - a.x, b.y - a.y)) {
+        begin_short_edge(edge, a, b);
+    } else {
+        begin_long_edge(edge, a, b, first);
     }
     return true;
 }
@@ -328,136 +327,20 @@ static bool goes_down_once(const struct ow_outline_point *points, uint32_t count
     return true;
 }
 
-/* Positive if b lies right of the line that goes down from a to c. */
-static inline int64_t side_of(struct ow_outline_point a, struct ow_outline_point b,
-                              struct ow_outline_point c)
+/* False if more than two borders cross a line: that is not done here. */
+static bool scan_low(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
+                     const struct ow_box *box, struct ow_span_sink *sink)
 {
-    return (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
-}
-
-/* True if the two had to be exchanged. */
-static inline bool swap_if_above(struct ow_outline_point *a, struct ow_outline_point *b)
-{
-    if (b->y >= a->y) {
+    struct low_borders borders;
+    uint32_t crossed = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        crossed += cross_low(&borders, points[i], points[i + 1 == count ? 0 : i + 1], box);
+    }
+    if (crossed != (uint32_t)(box->end_line - box->line)) {
         return false;
     }
-    struct ow_outline_point swap = *a;
-    *a = *b;
-    *b = swap;
+    sink->count = (uint32_t)(spans_between(&borders, rule, box, sink->spans) - sink->spans);
     return true;
-}
-
-/* An edge of a low triangle: on the current line it crosses at pixel place / whole. */
-struct low_edge {
-    uint32_t place;
-    uint32_t whole;
-    uint32_t step; /* added to place for each line; modulo 2^32 */
-};
-
-/* The edge from p down to q on a line that it crosses; pixels are counted from the origin. */
-static inline struct low_edge low_edge(struct ow_outline_point p, struct ow_outline_point q,
-                                       int32_t line, ow_sub8 origin)
-{
-    int32_t dx = q.x - p.x;
-    int32_t dy = q.y - p.y;
-    int32_t down = line * SUB + HALF - p.y;
-    /* (x - HALF) / SUB rounded up, which adds SUB - 1/dy. All of it is right of the origin. */
-    int32_t place = (p.x - origin + HALF) * dy + down * dx - 1;
-    return (struct low_edge){ (uint32_t)place, (uint32_t)(SUB * dy), (uint32_t)(SUB * dx) };
-}
-
-static inline struct ow_span *low_lines(struct ow_span *span, struct low_edge *left,
-                                        struct low_edge *right, int32_t line, int32_t stop,
-                                        int32_t origin_pixel, const struct ow_box *box)
-{
-    for (; line < stop; line++) {
-        int32_t first = origin_pixel + (int32_t)(left->place / left->whole);
-        int32_t end = origin_pixel + (int32_t)(right->place / right->whole);
-        left->place += left->step;
-        right->place += right->step;
-        first = most(first, box->left);
-        end = least(end, box->right);
-        if (first < end) {
-            *span++ = (struct ow_span){ (uint16_t)line, (uint16_t)first, (uint16_t)end };
-        }
-    }
-    return span;
-}
-
-/*
- * A triangle of few lines: on each, two divisions find where it is crossed,
- * which is less work than making edges ready to step. a, b, c from top to bottom.
- */
-static void scan_low_triangle(struct ow_outline_point a, struct ow_outline_point b,
-                              struct ow_outline_point c, bool b_is_right, const struct ow_box *box,
-                              struct ow_span_sink *sink)
-{
-    int32_t origin_pixel = least(a.x, least(b.x, c.x)) >> SUB_BITS;
-    ow_sub8 origin = origin_pixel * SUB;
-    int32_t line = box->line;
-    int32_t bend = least(first_centre(b.y), box->end_line);
-    struct low_edge whole = low_edge(a, c, line, origin);
-    struct ow_span *span = sink->spans;
-    if (line < bend) {
-        struct low_edge part = low_edge(a, b, line, origin);
-        span = b_is_right ? low_lines(span, &whole, &part, line, bend, origin_pixel, box)
-                          : low_lines(span, &part, &whole, line, bend, origin_pixel, box);
-        line = bend;
-    }
-    if (line < box->end_line) {
-        struct low_edge part = low_edge(b, c, line, origin);
-        span = b_is_right ? low_lines(span, &whole, &part, line, box->end_line, origin_pixel, box)
-                          : low_lines(span, &part, &whole, line, box->end_line, origin_pixel, box);
-    }
-    sink->count = (uint32_t)(span - sink->spans);
-}
-
-/* One edge from top to bottom on one side, two on the other. a, b, c from top to bottom. */
-static void scan_high_triangle(struct ow_outline_point a, struct ow_outline_point b,
-                               struct ow_outline_point c, bool b_is_right, const struct ow_box *box,
-                               struct ow_span_sink *sink)
-{
-    int32_t line = box->line;
-    struct ow_scan_edge whole;
-    struct ow_scan_edge part;
-    struct ow_scan_edge *left = b_is_right ? &whole : &part;
-    struct ow_scan_edge *right = b_is_right ? &part : &whole;
-    (void)begin_edge(&whole, a, c, line, box->end_line);
-    if (begin_edge(&part, a, b, line, box->end_line)) {
-        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, box, sink);
-        line = part.end;
-    }
-    if (begin_edge(&part, b, c, line, box->end_line)) {
-        add_lines(left, right, OW_WINDING_POSITIVE, line, part.end, box, sink);
-    }
-}
-
-enum {
-    LOW_LINES = 16, /* up to here dividing on each line is cheaper than setting up steps */
-    LOW_REACH = 120 * SUB
-};
-_Static_assert(2LL * LOW_REACH * (LOW_REACH + SUB) < INT32_MAX, "a low edge's place fits 32 bits");
-
-/* Triangles are most of most models, and most of them are small. */
-static void scan_triangle(const struct ow_outline_point *p, enum ow_winding rule,
-                          const struct ow_box *box, struct ow_span_sink *sink)
-{
-    struct ow_outline_point a = p[0];
-    struct ow_outline_point b = p[1];
-    struct ow_outline_point c = p[2];
-    int64_t side = side_of(a, b, c);
-    if (side >= 0 && (rule == OW_WINDING_POSITIVE || side == 0)) {
-        return; /* a back, or nothing */
-    }
-    bool b_is_right = side > 0;
-    b_is_right ^= swap_if_above(&a, &b);
-    b_is_right ^= swap_if_above(&b, &c);
-    b_is_right ^= swap_if_above(&a, &b);
-    if (box->is_small && box->end_line - box->line <= LOW_LINES) {
-        scan_low_triangle(a, b, c, b_is_right, box, sink);
-    } else {
-        scan_high_triangle(a, b, c, b_is_right, box, sink);
-    }
 }
 
 static void scan_outline(const struct ow_outline_point *points, uint32_t count,
@@ -491,20 +374,20 @@ bool ow_outline_box(const struct ow_outline_point *points, uint32_t count,
         min_y = least(min_y, points[i].y);
         max_y = most(max_y, points[i].y);
     }
+    box->origin = min_x >> SUB_BITS;
     box->left = most(first_centre(min_x), 0);
     box->right = least(first_centre(max_x), window->width);
     box->line = most(first_centre(min_y), window->first_line);
     box->end_line = least(first_centre(max_y), window->end_line);
-    box->is_small = (max_x - min_x) < LOW_REACH && (max_y - min_y) < LOW_REACH;
+    box->is_small = (max_x - min_x) < SHORT_REACH && (max_y - min_y) < SHORT_REACH;
     return box->left < box->right && box->line < box->end_line;
 }
 
 void ow_scan(const struct ow_outline_point *points, uint32_t count, enum ow_winding rule,
              const struct ow_box *box, struct ow_scan_edge *edges, struct ow_span_sink *sink)
 {
-    if (count == 3) {
-        scan_triangle(points, rule, box, sink);
-    } else {
+    bool is_low = box->is_small && box->end_line - box->line <= LOW_LINES;
+    if (!is_low || !scan_low(points, count, rule, box, sink)) {
         scan_outline(points, count, rule, box, edges, sink);
     }
     if (sink->count > 0) {

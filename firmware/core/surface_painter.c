@@ -1,12 +1,19 @@
 /* SPDX-License-Identifier: 0BSD */
 /* Surface: the painter's, farthest first, each face over what was there [FKN80]. */
+#include "ow_memory.h"
 #include "ow_surface.h"
 
 static void begin(struct ow_surface *surface, uint32_t background)
 {
     const struct ow_target *target = surface->target;
+    bool lines_are_equal = surface->backdrop == NULL && !surface->dither;
     for (uint32_t i = 0; i < target->line_count; i++) {
-        ow_write_background(surface, target->first_line + i, 0, surface->width, background);
+        if (i > 0 && lines_are_equal) {
+            memcpy(target->pixels + i * target->stride, target->pixels,
+                   ow_row_bytes(target->format, surface->width));
+        } else {
+            ow_write_background(surface, target->first_line + i, 0, surface->width, background);
+        }
     }
     surface->pixels_background += surface->width * target->line_count;
     surface->lines_open = target->line_count; /* for ever: what is painted can be painted over */
@@ -14,6 +21,13 @@ static void begin(struct ow_surface *surface, uint32_t background)
 
 static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)
 {
+    const struct ow_target *target = surface->target;
+    if (surface->write == NULL && target->format->fill_spans != NULL) {
+        surface->pixels_written +=
+            target->format->fill_spans(surface->top, target->stride, spans, count, surface->colour);
+        surface->spans_written += count;
+        return;
+    }
     for (uint32_t i = 0; i < count; i++) {
         const struct ow_span *span = &spans[i];
         ow_write_run(surface, span->line, span->first, span->end);

@@ -1,52 +1,21 @@
 /* SPDX-License-Identifier: 0BSD */
 /*
- * Stage "walk": one explicit stack, at most one entry a level. Items are read
- * in runs; a node met in a run puts the rest of the run on the stack.
+ * Stage "walk": one explicit stack of runs of items that are still to come. A
+ * node met in a run puts the rest of the run there; a switch puts its coplanar
+ * faces and its second child there: two entries a level at most.
  */
-#include "ow_walk.h"
+#include "walk_step.h"
 
-#include "ow_read.h"
-
-/*
- * A stack entry is either the rest of a run (at: the next item, left: how many
- * items) or a switch with work to do after its first child (at: its first word,
- * left: one of these marks and the second child's place).
- */
-enum {
-    PENDING_COPLANAR = 1 << 30,
-    PENDING_SECOND = 1 << 29,
-    SECOND_IS_BACK = 1 << 28,
-    PENDING = PENDING_COPLANAR | PENDING_SECOND
-};
-_Static_assert((int)OW_NODE_MAX_ITEMS < (int)SECOND_IS_BACK,
-               "a run's length never looks like a mark");
+enum { ENTRIES_A_LEVEL = 2 };
 
 uint32_t ow_walk_stack_bytes(const struct ow_tree *tree)
 {
-    return tree->depth * (uint32_t)sizeof(struct ow_walk_entry);
-}
-
-/* Component i of a plane's normal; i = 0 .. 2. */
-static int64_t plane_normal(const uint8_t *bytes, uint32_t plane_at, uint32_t i)
-{
-    return (int32_t)(ow_read_u32(bytes, plane_at + 4 * i) << 8) >> 8;
-}
-
-static int64_t plane_distance(const uint8_t *bytes, uint32_t plane_at)
-{
-    int64_t high = (int64_t)ow_read_i8(bytes, plane_at + 7) * 256 + ow_read_u8(bytes, plane_at + 3);
-    return high * 4294967296 + ow_read_u32(bytes, plane_at + 12);
+    return tree->depth * ENTRIES_A_LEVEL * (uint32_t)sizeof(struct ow_walk_run);
 }
 
 int ow_eye_side(const struct ow_tree *tree, const struct ow_view *view, uint32_t plane_at)
 {
-    bool perspective = view->projection == OW_PERSPECTIVE;
-    int64_t sum = perspective ? plane_distance(tree->bytes, plane_at) * 256 : 0;
-    for (uint32_t i = 0; i < 3; i++) {
-        int64_t towards = perspective ? view->eye[i] : -view->forward[i];
-        sum += plane_normal(tree->bytes, plane_at, i) * towards;
-    }
-    return (sum > 0) - (sum < 0);
+    return eye_side(tree, view, plane_at);
 }
 
 /*
@@ -90,57 +59,9 @@ static inline bool looks_away(const struct ow_walk *walk, uint32_t at, bool reve
     return sum < -walk->doubt && !(ow_read_u16(bytes, at + 4) & OW_POLYGON_UNEVEN);
 }
 
-/* A node's first word, and where what follows word and bounds begins. */
-static uint32_t node_word(const uint8_t *bytes, uint32_t at, uint32_t *rest_at)
-{
-    uint32_t word = ow_read_u32(bytes, at);
-    *rest_at = at + OW_NODE_WORD_BYTES + ((word & OW_NODE_BOUNDED) ? OW_NODE_BOUNDS_BYTES : 0);
-    return word;
-}
-
-static void run(struct ow_walk *walk, uint32_t first_at, uint32_t count)
-{
-    uint32_t last_at = first_at + 4 * (count - 1);
-    walk->run_at = walk->direction == OW_FARTHEST_FIRST ? first_at : last_at;
-    walk->run_left = count;
-}
-
-/* One of a switch's children, 0 front and 1 back, as a run of one item; none: an empty run. */
-static void run_child(struct ow_walk *walk, uint32_t children_at, uint32_t child)
-{
-    uint32_t at = children_at + 4 * child;
-    walk->run_at = at;
-    walk->run_left = ow_read_u32(walk->tree->bytes, at) != OW_ITEM_NONE;
-}
-
-static void push(struct ow_walk *walk, uint32_t at, uint32_t left)
-{
-    walk->stack[walk->entries++] = (struct ow_walk_entry){ at, left };
-}
-
-static void enter(struct ow_walk *walk, uint32_t at)
-{
-    uint32_t rest_at;
-    uint32_t word = node_word(walk->tree->bytes, at, &rest_at);
-    if ((word & OW_NODE_BOUNDED) && walk->skip.hides != NULL &&
-        walk->skip.hides(walk->skip.context, walk->tree, at + OW_NODE_WORD_BYTES)) {
-        walk->nodes_skipped++;
-        walk->run_left = 0;
-        return;
-    }
-    if ((word & OW_NODE_KIND_MASK) == OW_NODE_SEQUENCE) {
-        run(walk, rest_at, word >> OW_NODE_COUNT_SHIFT);
-        return;
-    }
-    int side = ow_eye_side(walk->tree, walk->view, rest_at + OW_SWITCH_CHILDREN_BYTES);
-    bool front_first = (side > 0) == (walk->direction == OW_NEAREST_FIRST);
-    push(walk, at, PENDING_COPLANAR | (front_first ? SECOND_IS_BACK : 0));
-    run_child(walk, rest_at, front_first ? 0 : 1);
-}
-
 enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
                              const struct ow_view *view, enum ow_direction direction,
-                             enum ow_cull cull, struct ow_walk_entry *stack)
+                             enum ow_cull cull, struct ow_walk_run *stack)
 {
     bool two_sided = (tree->flags & OW_TREE_TWO_SIDED) != 0;
     bool outline_decides = cull == OW_CULL_NONE && !two_sided;
@@ -155,74 +76,41 @@ enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
     walk->nodes_skipped = 0;
     walk->skip = (struct ow_walk_skip){ NULL, NULL };
     walk->direction = direction;
+    walk->step = direction == OW_FARTHEST_FIRST ? 4 : 0u - 4;
     walk->fronts_only = cull == OW_CULL_BACK;
     walk->reject_backs = !outline_decides;
     make_facing(walk, view);
-    walk->run_left = 0;
-    push(walk, tree->nodes_at, 0); /* a rest of no items: the root is entered first */
+    walk->run = (struct ow_walk_run){ 0, 0 };
+    push(walk, (struct ow_walk_run){ tree->nodes_at, 0 });
     return OW_OK;
 }
 
-/* Goes on with what the top of the stack says. */
-static void resume(struct ow_walk *walk)
+bool ow_walk_to_face(struct ow_walk *walk)
 {
-    struct ow_walk_entry entry = walk->stack[--walk->entries];
-    if (!(entry.left & PENDING)) {
-        if (entry.left == 0) {
-            enter(walk, entry.at);
-        } else {
-            walk->run_at = entry.at;
-            walk->run_left = entry.left;
-        }
-        return;
-    }
-    uint32_t rest_at;
-    uint32_t word = node_word(walk->tree->bytes, entry.at, &rest_at);
-    if (entry.left & PENDING_COPLANAR) {
-        push(walk, entry.at, PENDING_SECOND | (entry.left & SECOND_IS_BACK));
-        run(walk, rest_at + OW_SWITCH_CHILDREN_BYTES + OW_SWITCH_PLANE_BYTES,
-            word >> OW_NODE_COUNT_SHIFT);
-    } else {
-        run_child(walk, rest_at, (entry.left & SECOND_IS_BACK) ? 1 : 0);
-    }
+    struct ow_walk_run run = walk->run;
+    bool more = to_face(walk, &run);
+    walk->run = run;
+    return more;
+}
+
+bool ow_walk_face(struct ow_walk *walk, uint32_t item, struct ow_face *face)
+{
+    face->at = walk->tree->polygons_at + (item >> OW_ITEM_TAG_BITS << 1);
+    face->reverse = (item & 3) == OW_ITEM_REVERSE;
+    return !(face->reverse && walk->fronts_only) &&
+           !(walk->reject_backs && looks_away(walk, face->at, face->reverse));
 }
 
 bool ow_walk_next(struct ow_walk *walk, struct ow_face *face)
 {
-    const struct ow_tree *tree = walk->tree;
-    const uint8_t *bytes = tree->bytes;
-    uint32_t step = walk->direction == OW_FARTHEST_FIRST ? 4 : 0u - 4;
-    for (;;) {
-        uint32_t at = walk->run_at;
-        for (uint32_t left = walk->run_left; left > 0; left--) {
-            uint32_t item = ow_read_u32(bytes, at);
-            uint32_t tag = item & 3;
-            at += step;
-            if (tag == OW_ITEM_NODE) {
-                if (left > 1) {
-                    push(walk, at, left - 1);
-                }
-                enter(walk, tree->nodes_at + 4 * (item >> OW_ITEM_TAG_BITS));
-                at = walk->run_at;
-                left = walk->run_left + 1;
-                continue;
-            }
-            uint32_t polygon_at = tree->polygons_at + (item >> OW_ITEM_TAG_BITS << 1);
-            walk->faces_met++;
-            if ((tag == OW_ITEM_REVERSE && walk->fronts_only) ||
-                (walk->reject_backs && looks_away(walk, polygon_at, tag == OW_ITEM_REVERSE))) {
-                continue;
-            }
-            face->at = polygon_at;
-            face->reverse = tag == OW_ITEM_REVERSE;
-            walk->run_at = at;
-            walk->run_left = left - 1;
+    while (ow_walk_to_face(walk)) {
+        uint32_t item = ow_read_u32(walk->tree->bytes, walk->run.at);
+        walk->run.at += walk->step;
+        walk->run.left--;
+        walk->faces_met++;
+        if (ow_walk_face(walk, item, face)) {
             return true;
         }
-        walk->run_left = 0;
-        if (walk->entries == 0) {
-            return false;
-        }
-        resume(walk);
     }
+    return false;
 }

@@ -44,7 +44,9 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     uint32_t words = (config->width + 31u) / 32;
     workspace->frame = cut(&cutter, 1, sizeof *workspace->frame);
     workspace->stack = cut(&cutter, ow_walk_stack_bytes(tree), 1);
-    workspace->cache = cut(&cutter, entries, sizeof *workspace->cache);
+    workspace->points = cut(&cutter, entries, sizeof *workspace->points);
+    workspace->tags =
+        cut(&cutter, entries < tree->vertex_count ? entries : 0, sizeof *workspace->tags);
     workspace->outline = cut(&cutter, capacity, sizeof *workspace->outline);
     workspace->corner_lights = cut(&cutter, capacity, sizeof *workspace->corner_lights);
     for (int i = 0; i < 2; i++) {
@@ -109,7 +111,6 @@ enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct o
         return OW_MEMORY;
     }
     (void)place(workspace, tree, config, memory);
-    memset(workspace->cache, 0, (size_t)workspace->cache_entries * sizeof *workspace->cache);
-    workspace->stamp = 0;
+    workspace->stamp = 255; /* the first frame clears the tags */
     return OW_OK;
 }

@@ -53,7 +53,7 @@ enum { CAMERAS = sizeof cameras / sizeof *cameras };
 static void walk(const struct ow_tree *tree, const struct ow_view *view, enum ow_direction way,
                  enum ow_cull cull)
 {
-    struct ow_walk_entry *stack = block_of(ow_walk_stack_bytes(tree));
+    struct ow_walk_run *stack = block_of(ow_walk_stack_bytes(tree));
     struct ow_walk state;
     struct ow_face face;
     enum ow_status status = ow_walk_begin(&state, tree, view, way, cull, stack);

@@ -262,7 +262,7 @@ static uint64_t check_view(const struct ow_tree *tree, const struct model *model
     if (!random_view(&view, eye)) {
         return 0;
     }
-    struct ow_walk_entry *stack = xalloc(ow_walk_stack_bytes(tree), 1);
+    struct ow_walk_run *stack = xalloc(ow_walk_stack_bytes(tree), 1);
     assert_int_equal(ow_walk_begin(&walk, tree, &view, OW_FARTHEST_FIRST, OW_CULL_AUTO, stack),
                      OW_OK);
     while (ow_walk_next(&walk, &met)) {

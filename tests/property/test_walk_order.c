@@ -410,7 +410,7 @@ static uint32_t walk_all(const struct ow_tree *tree, const struct ow_view *view,
 {
     struct ow_walk walk;
     struct ow_face face;
-    struct ow_walk_entry *stack = malloc(ow_walk_stack_bytes(tree));
+    struct ow_walk_run *stack = malloc(ow_walk_stack_bytes(tree));
     assert_non_null(stack);
     assert_int_equal(ow_walk_begin(&walk, tree, view, direction, OW_CULL_AUTO, stack), OW_OK);
     uint32_t count = 0;

@@ -186,7 +186,7 @@ static size_t walk_solids(const struct ow_tree *tree, const struct ow_view *view
 {
     struct ow_walk walk;
     struct ow_face face;
-    struct ow_walk_entry *stack = xalloc(ow_walk_stack_bytes(tree), 1);
+    struct ow_walk_run *stack = xalloc(ow_walk_stack_bytes(tree), 1);
     size_t count = 0;
     assert_int_equal(ow_walk_begin(&walk, tree, view, OW_NEAREST_FIRST, OW_CULL_AUTO, stack),
                      OW_OK);

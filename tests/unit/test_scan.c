@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: 0BSD */
 /*
  * The fill rule: spans of random outlines (convex, concave, with holes, crossing
- * themselves, far beyond the screen) against winding numbers by exact integers
+ * themselves, far beyond the screen) against winding numbers by 64-bit integers
  * at every pixel's centre; neighbours neither share a pixel nor leave one out.
  */
 #include <setjmp.h>
@@ -87,6 +87,16 @@ static void clear(struct canvas *canvas)
 }
 
 /* ---- what is right -------------------------------------------------------------------------- */
+/* The edge that goes down from a to b lies left of the point or on it: the rule of ow_scan.h. */
+static bool is_right_of(struct ow_outline_point a, struct ow_outline_point b, int64_t x, int64_t y)
+{
+    int64_t dx = b.x - a.x, dy = b.y - a.y;
+    if (llabs(dx) < 120 * OW_SUB && dy < 120 * OW_SUB) {
+        return a.x * INT64_C(65536) + dx * 65536 / dy * (y - a.y) <= x * 65536;
+    }
+    return dx * (y - a.y) <= (x - a.x) * dy;
+}
+
 /* Winding at a pixel's centre, counter-clockwise positive on a screen whose y goes down. */
 static int winding_at(const struct ow_outline_point *points, uint32_t count, int32_t column,
                       int32_t line)
@@ -101,8 +111,7 @@ static int winding_at(const struct ow_outline_point *points, uint32_t count, int
             a = b;
             b = swap;
         }
-        /* The edge lies left of the centre or on it. */
-        if ((down || up) && (int64_t)(b.x - a.x) * (y - a.y) <= (x - a.x) * (int64_t)(b.y - a.y)) {
+        if ((down || up) && is_right_of(a, b, x, y)) {
             winding += down ? 1 : -1;
         }
     }

@@ -46,9 +46,10 @@ struct ow_surface {
     struct ow_samples *samples; /* coverage: of each pixel */
     uint32_t *sampled;          /* coverage: a bit for each pixel that has a sample */
     uint32_t words_in_line;
-    uint32_t lines_open;   /* lines with unlit pixels; 0: nothing more can be seen */
-    uint16_t *open_pixels; /* unlit pixels of each line */
-    uint32_t *open_tiles;  /* a bit for each tile that may have any */
+    uint32_t lines_open;     /* lines with unlit pixels; 0: nothing more can be seen */
+    uint16_t *open_pixels;   /* unlit pixels of each line */
+    uint32_t *open_tiles;    /* a bit for each tile that may have any */
+    uint32_t lines_outgrown; /* segments: lines whose list became bits */
 };
 
 /*
@@ -81,6 +82,7 @@ struct ow_surface_kind {
 
 extern const struct ow_surface_kind ow_surface_painter;
 extern const struct ow_surface_kind ow_surface_dynamic;
+extern const struct ow_surface_kind ow_surface_segments;
 
 static inline uint8_t *ow_line_pixels(const struct ow_target *target, uint32_t line)
 {

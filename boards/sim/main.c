@@ -115,6 +115,7 @@ static void set_cut(struct run *run)
 static void scale_look(struct ow_look *look, const struct run *run)
 {
     const double *depth_cue = run->settings.depth_cue;
+    lights_scale(look, &run->settings.light_places, &run->tree);
     if (depth_cue[1] > 0) {
         look->depth_near = length_q8(depth_cue[0], &run->tree);
         look->depth_far = length_q8(depth_cue[1], &run->tree);

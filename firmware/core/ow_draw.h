@@ -40,12 +40,25 @@ enum ow_map {
     OW_MAP_SPECTRUM /* blue, green, yellow, red: levels can be told apart */
 };
 
-/* Lengths and directions: right, up, towards the viewer; or the model's axes. */
+enum { OW_LIGHTS_MAX = 8 }; /* of a look */
+
+/*
+ * A light: from a direction, or at a point. In model space or along right, up,
+ * towards the viewer; then a point's place counts from the eye.
+ */
 struct ow_light {
     int16_t direction_q14[3]; /* unit vector towards the light, 14 fraction bits */
     uint16_t intensity_q8;    /* 256: a face square to the light shows its colour in full */
     bool in_model_space;      /* false: the light moves with the viewer */
+    /* NULL: directional. &ow_light_point: at a point, as bright far away as near by. */
+    const struct ow_light_kind *kind;
+    ow_q8 place[3]; /* of a point, lattice steps within OW_EYE_MAX */
 };
+
+extern const struct ow_light_kind ow_light_point;
+
+/* What the look's map and depth cue need; a look without them has none. */
+extern const struct ow_effect ow_effect_map_and_depth;
 
 /*
  * What fills the pixels that the model leaves unlit: a gradient, a picture, a
@@ -75,7 +88,10 @@ struct ow_look {
     enum ow_cull cull;
     uint32_t background; /* 0x00RRGGBB; OW_SHADE_ID: packed as it is */
     uint16_t ambient_q8; /* 256: all faces show their colour in full */
-    struct ow_light light;
+    struct ow_light lights[OW_LIGHTS_MAX];
+    uint8_t light_count; /* 0: ambient light alone */
+    /* &ow_effect_map_and_depth for map and depth cue; NULL: neither. */
+    const struct ow_effect *effect;
     /* OW_SHADE_PHONG: the highlight's strength, 256 adds full white in its middle; 0: none. */
     uint16_t specular_q8;
     uint8_t shininess; /* the highlight's exponent is 2^shininess; 0 .. 7 */

@@ -261,6 +261,7 @@ static void end(struct ow_surface *surface, uint32_t background)
 
 const struct ow_surface_kind ow_surface_segments = {
     .direction = OW_NEAREST_FIRST,
+    .writes_once = true,
     .begin = begin,
     .take = take,
     .end = end,

@@ -74,8 +74,8 @@ static void paint_face(struct canvas *canvas, const struct random_scene *scene,
         points[i].x *= 4;
         points[i].y *= 4;
         if (smooth) {
-            lights[i] = ow_shade_corner(canvas->shader, &scene->tree,
-                                        ow_corner(&scene->tree, face->at, i), false);
+            ow_shade_corner(canvas->shader, &scene->tree, ow_corner(&scene->tree, face->at, i),
+                            false, &lights[i]);
         }
     }
     canvas->gradient = NULL;

@@ -86,6 +86,7 @@ static void set_depth_cue(struct ow_look *look, const struct random_scene *scene
 {
     double near = 1e9;
     double far = 0;
+    look->effect = &ow_effect_map_and_depth;
     for (uint32_t i = 0; i < scene->tree.vertex_count; i++) {
         double z = depth(scene, view, i);
         near = fmin(near, z);
@@ -148,11 +149,13 @@ static void test_smooth_parts(void **state)
         struct ow_look look = random_scene_look(shades[i % 2]);
         look.specular_q8 = 0;
         look.map = OW_MAP_HEAT;
+        look.effect = &ow_effect_map_and_depth;
         ow_shader_make(&plain, &look, &view);
         set_depth_cue(&look, &scene, &view);
         ow_shader_make(&shader, &look, &view);
         for (uint32_t vertex = 0; vertex < scene.tree.vertex_count; vertex++) {
-            struct ow_corner_light light = ow_shade_corner(&shader, &scene.tree, vertex, false);
+            struct ow_corner_light light;
+            ow_shade_corner(&shader, &scene.tree, vertex, false, &light);
             uint32_t got = ow_shade_pixel(&shader, 0x123456, &light);
             uint32_t unfaded = ow_shade_pixel(&plain, 0x654321, &light);
             check_channels(got, unfaded, look.background,
@@ -256,10 +259,19 @@ static void test_refusals(void **state)
         struct ow_look look = random_scene_look(OW_SHADE_FLAT);
         look.depth_near = wrong[i][0];
         look.depth_far = wrong[i][1];
+        look.effect = &ow_effect_map_and_depth;
         assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
     }
     struct ow_look look = random_scene_look(OW_SHADE_FLAT);
+    look.effect = &ow_effect_map_and_depth;
     look.map = (enum ow_map)(OW_MAP_SPECTRUM + 1);
+    assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
+    look.effect = NULL;
+    look.map = OW_MAP_HEAT;
+    assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
+    look.map = OW_MAP_NONE;
+    assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_OK);
+    look.light_count = OW_LIGHTS_MAX + 1;
     assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
     random_scene_free(&scene);
 }

@@ -59,7 +59,7 @@ static void read_light(struct ow_light *light, double place[3], const char *text
     }
     light->intensity_q8 = (uint16_t)lround(share * ONE_Q8);
     if (is_point) {
-        light->kind = &ow_light_point;
+        light->at_point = true;
         memcpy(place, numbers, 3 * sizeof *place);
     } else {
         read_direction(light, numbers);
@@ -83,7 +83,7 @@ void lights_scale(struct ow_look *look, const struct light_places *places,
 {
     for (uint8_t k = 0; k < look->light_count; k++) {
         struct ow_light *light = &look->lights[k];
-        for (int i = 0; i < 3 && light->kind != NULL; i++) {
+        for (int i = 0; i < 3 && light->at_point; i++) {
             double from = light->in_model_space ? tree->origin[i] : 0;
             double place = round((places->place[k][i] - from) / tree->step * ONE_Q8);
             if (!(fabs(place) <= OW_EYE_MAX)) {

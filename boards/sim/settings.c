@@ -10,6 +10,7 @@
 
 #include "bench.h"
 #include "output.h"
+#include "ow_surface.h"
 #include "sim/image.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
@@ -22,6 +23,7 @@ static const char *const shades[] = { "id", "flat", "gouraud", "phong", "lines",
 static const char *const culls[] = { "auto", "back", "none", NULL };
 static const char *const maps[] = { "none", "heat", "cool", "spectrum", NULL };
 static const char *const coverages[] = { "none", "4x4", NULL };
+static const char *const unlits[] = { "bits", "segments", NULL };
 static const char *const panels[] = { "lend", "write", NULL };
 enum { ORDER_AUTO = 3, FORMATS_MOST = 31 };
 
@@ -53,6 +55,7 @@ struct raw {
     int format;
     int coverage;
     int map;
+    int unlit;
     int panel;
     uint64_t threads;
     const char *background;
@@ -166,9 +169,6 @@ static void read_look(struct settings *settings, const struct raw *raw)
     look->dither = raw->dither;
     look->map = (enum ow_map)raw->map;
     look->coverage = raw->coverage != 0;
-    if (look->map != OW_MAP_NONE || raw->depth_cue != NULL) {
-        look->effect = &ow_effect_map_and_depth;
-    }
     if (raw->depth_cue != NULL) {
         read_depth_cue(settings->depth_cue, raw->depth_cue);
     }
@@ -187,6 +187,10 @@ static void read_look(struct settings *settings, const struct raw *raw)
     look->cap = look->caps ? read_colour("cap", raw->cap) : 0;
     lights_read(look, &settings->light_places, &raw->lights, 1 - raw->ambient, raw->light_in_model);
     settings->format = ow_formats[raw->format];
+    settings->parts = ow_parts_all;
+    if (raw->unlit != 0) {
+        settings->parts.dynamic = &ow_surface_segments;
+    }
     settings->panel = panel_kinds[raw->panel];
     check_look(settings, raw);
 }
@@ -322,6 +326,9 @@ static size_t add_look(struct option_spec *to, struct raw *raw, const char *cons
 {
     const struct option_spec specs[] = {
         { "order", 0, OPTION_CHOICE, &raw->order, NULL, "the surface", .choices = orders },
+        { "unlit", 0, OPTION_CHOICE, &raw->unlit, NULL,
+          "what front-to-back knows of unlit pixels: same pictures, other times",
+          .choices = unlits },
         { "shade", 0, OPTION_CHOICE, &raw->shade, NULL, "id: the source polygon's number",
           .choices = shades },
         { "cull", 0, OPTION_CHOICE, &raw->cull, NULL, "auto: as the tree was built",

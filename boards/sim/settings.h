@@ -32,6 +32,7 @@ struct settings {
     struct light_places light_places;
     double depth_cue[2]; /* model units; both 0: none */
     const struct ow_pixel_format *format;
+    struct ow_parts parts;
     enum sim_panel_kind panel;
     uint32_t threads;
     bool cuts;

@@ -24,14 +24,6 @@ enum ow_order {
     OW_SCAN_LINE      /* priority scan line: one line at a time, no frame buffer [FKN80] */
 };
 
-enum ow_shade {
-    OW_SHADE_ID,      /* the source polygon's number as a colour, no light */
-    OW_SHADE_FLAT,    /* one colour a face: ambient and directional light */
-    OW_SHADE_GOURAUD, /* intensity interpolated between the corners; needs vertex normals */
-    OW_SHADE_PHONG,   /* normals interpolated, with a highlight; needs vertex normals */
-    OW_SHADE_LINES    /* outlines in the foreground's colour, faces in the background's */
-};
-
 /* What becomes of a face's intensity. */
 enum ow_map {
     OW_MAP_NONE,    /* it scales the material's colour */
@@ -50,15 +42,9 @@ struct ow_light {
     int16_t direction_q14[3]; /* unit vector towards the light, 14 fraction bits */
     uint16_t intensity_q8;    /* 256: a face square to the light shows its colour in full */
     bool in_model_space;      /* false: the light moves with the viewer */
-    /* NULL: directional. &ow_light_point: at a point, as bright far away as near by. */
-    const struct ow_light_kind *kind;
-    ow_q8 place[3]; /* of a point, lattice steps within OW_EYE_MAX */
+    bool at_point;            /* not from a direction: as bright far away as near by */
+    ow_q8 place[3];           /* of a point, lattice steps within OW_EYE_MAX */
 };
-
-extern const struct ow_light_kind ow_light_point;
-
-/* What the look's map and depth cue need; a look without them has none. */
-extern const struct ow_effect ow_effect_map_and_depth;
 
 /*
  * What fills the pixels that the model leaves unlit: a gradient, a picture, a
@@ -90,8 +76,6 @@ struct ow_look {
     uint16_t ambient_q8; /* 256: all faces show their colour in full */
     struct ow_light lights[OW_LIGHTS_MAX];
     uint8_t light_count; /* 0: ambient light alone */
-    /* &ow_effect_map_and_depth for map and depth cue; NULL: neither. */
-    const struct ow_effect *effect;
     /* OW_SHADE_PHONG: the highlight's strength, 256 adds full white in its middle; 0: none. */
     uint16_t specular_q8;
     uint8_t shininess; /* the highlight's exponent is 2^shininess; 0 .. 7 */
@@ -150,6 +134,7 @@ struct ow_stats {
     uint32_t spans;             /* runs of pixels written by the model */
     uint32_t nodes_skipped;     /* bounded nodes out of view, facing away or covered */
     uint32_t polygons_unlisted; /* scan line order: no room in the list; lines then walk anew */
+    uint32_t lines_outgrown;    /* ow_surface_segments: lines whose list became bits */
     uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
 };
 

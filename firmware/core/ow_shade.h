@@ -66,9 +66,6 @@ extern const struct ow_shading ow_shading_gouraud;
 extern const struct ow_shading ow_shading_phong;
 extern const struct ow_shading ow_shading_lines;
 
-/* The shading of this number. A program that uses it contains all of them. */
-const struct ow_shading *ow_shading_of(enum ow_shade shade);
-
 /* What becomes of intensity and colour in the end: a file effect_NAME.c. */
 struct ow_effect {
     void (*make)(struct ow_shader *shader, const struct ow_look *look, const struct ow_view *view);
@@ -78,6 +75,9 @@ struct ow_effect {
     uint32_t (*finish)(const struct ow_shader *shader, uint32_t colour, uint32_t intensity,
                        uint32_t white, int32_t share_q16);
 };
+
+extern const struct ow_light_kind ow_light_point;
+extern const struct ow_effect ow_effect_map_and_depth;
 
 /* The look of one frame, made ready. */
 struct ow_shader {
@@ -95,8 +95,8 @@ struct ow_shader {
     int32_t ambient_q16;
     int32_t specular_q8;
     struct ow_ready_light lights[OW_LIGHTS_MAX];
-    const struct ow_light_kind *kind; /* of the points, if there are any */
-    uint32_t background;              /* 0x00RRGGBB */
+    const struct ow_light_kind *point;
+    uint32_t background; /* 0x00RRGGBB */
     uint32_t foreground;
     /* The effect's: share = (depth_far - z) * depth_scale, camera units, 65536 for 1. */
     enum ow_map map;
@@ -105,8 +105,14 @@ struct ow_shader {
     const struct ow_view *view;
 };
 
-void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
-                    const struct ow_view *view);
+/* The parts hold what the look needs. */
+void ow_shader_make(struct ow_shader *shader, const struct ow_parts *parts,
+                    const struct ow_look *look, const struct ow_view *view);
+
+static inline bool ow_look_has_effect(const struct ow_look *look)
+{
+    return look->map != OW_MAP_NONE || look->depth_far > 0;
+}
 
 /* The material's colour of a face, 0x00RRGGBB. */
 uint32_t ow_face_colour(const struct ow_shader *shader, const struct ow_tree *tree,

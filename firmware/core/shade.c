@@ -38,26 +38,26 @@ static void make_lights(struct ow_shader *shader, const struct ow_look *look,
                         const struct ow_view *view)
 {
     for (uint32_t i = 0; i < look->light_count; i++) {
-        if (look->lights[i].kind == NULL) {
+        if (!look->lights[i].at_point) {
             make_directional(add_light(shader, &look->lights[i]), &look->lights[i], view);
             shader->directional++;
         }
     }
     for (uint32_t i = 0; i < look->light_count; i++) {
-        if (look->lights[i].kind != NULL) {
-            shader->kind = look->lights[i].kind;
-            shader->kind->make(add_light(shader, &look->lights[i]), &look->lights[i], view);
+        if (look->lights[i].at_point) {
+            shader->point->make(add_light(shader, &look->lights[i]), &look->lights[i], view);
             shader->points++;
         }
     }
 }
 
-void ow_shader_make(struct ow_shader *shader, const struct ow_look *look,
-                    const struct ow_view *view)
+void ow_shader_make(struct ow_shader *shader, const struct ow_parts *parts,
+                    const struct ow_look *look, const struct ow_view *view)
 {
     *shader = (struct ow_shader){
-        .shading = ow_shading_of(look->shade),
-        .effect = look->effect,
+        .shading = parts->shading[look->shade],
+        .effect = ow_look_has_effect(look) ? parts->effect : NULL,
+        .point = parts->point,
         .shade = look->shade,
         .caps = view->cuts && look->caps,
         .cap = look->cap,

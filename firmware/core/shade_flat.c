@@ -27,7 +27,7 @@ static uint32_t face_colour(const struct ow_shader *shader, const struct ow_tree
     if (shader->points > 0) {
         int32_t place[3];
         middle(tree, face->at, place);
-        sum += shader->kind->shine(shader, normal, place);
+        sum += shader->point->shine(shader, normal, place);
     }
     uint32_t intensity = (uint32_t)ow_intensity_q16(sum) >> 8;
     if (shader->effect == NULL) {

@@ -12,7 +12,7 @@ static void corner(const struct ow_shader *shader, const struct ow_tree *tree, u
     if (shader->points > 0) {
         int32_t place[3];
         ow_read_vertex(tree, vertex, place);
-        sum += shader->kind->shine(shader, normal, place);
+        sum += shader->point->shine(shader, normal, place);
     }
     light->part[0] = ow_intensity_q16(sum);
 }

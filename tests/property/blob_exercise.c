@@ -114,7 +114,7 @@ static void use_view(const struct ow_tree *tree, const struct ow_view *view, uin
                                 .lights = { { .direction_q14 = { 5000, 9000, 12000 },
                                               .intensity_q8 = 256,
                                               .in_model_space = number % 3 == 0 },
-                                            { .kind = &ow_light_point,
+                                            { .at_point = true,
                                               .intensity_q8 = 200,
                                               .in_model_space = number % 2 == 0,
                                               .place = { 0, 1 << 22, -(1 << 20) } } },

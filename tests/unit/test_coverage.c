@@ -101,7 +101,7 @@ static void paint_reference(struct canvas *canvas, struct random_scene *scene,
     struct ow_face face;
     void *stack = malloc(ow_walk_stack_bytes(&scene->tree));
     assert_non_null(stack);
-    ow_shader_make(&shader, look, view);
+    ow_shader_make(&shader, &ow_parts_all, look, view);
     canvas->sink = (struct ow_span_sink){ spans, 0, FINE_HEIGHT, take };
     canvas->shader = &shader;
     memset(canvas->model, 0, sizeof canvas->model);

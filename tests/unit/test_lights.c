@@ -59,7 +59,7 @@ static struct ow_light from_direction(double x, double y, double z, uint16_t int
 
 static struct ow_light at_point(double x, double y, double z, uint16_t intensity_q8)
 {
-    return (struct ow_light){ .kind = &ow_light_point,
+    return (struct ow_light){ .at_point = true,
                               .place = { (ow_q8)lround(x * 256), (ow_q8)lround(y * 256),
                                          (ow_q8)lround(z * 256) },
                               .intensity_q8 = intensity_q8,
@@ -72,7 +72,7 @@ static uint32_t white_at(const struct ow_look *look, const struct ow_view *view,
     struct ow_shader shader;
     struct ow_corner_light light;
     memset(&light, 0x7A, sizeof light); /* parts that are not its own are not read */
-    ow_shader_make(&shader, look, view);
+    ow_shader_make(&shader, &ow_parts_all, look, view);
     assert_true(shader.parts <= OW_LIGHT_PARTS);
     ow_shade_corner(&shader, &scene.tree, vertex, false, &light);
     return ow_shade_pixel(&shader, 0xFFFFFF, &light) & 255;
@@ -100,8 +100,8 @@ static double expected_at(const struct ow_look *look, const double place[3], con
         double along = 0;
         double length = 0;
         for (uint32_t i = 0; i < 3; i++) {
-            double way = light->kind ? light->place[i] / 256.0 - place[i]
-                                     : light->direction_q14[i] / 16384.0;
+            double way = light->at_point ? light->place[i] / 256.0 - place[i]
+                                         : light->direction_q14[i] / 16384.0;
             along += way * normal[i];
             length += way * way;
         }
@@ -182,7 +182,7 @@ static void flat_light_is_what_it_should_be(void **state)
             struct ow_shader shader;
             struct ow_look look = dark_look(OW_SHADE_FLAT);
             add_random_lights(&look);
-            ow_shader_make(&shader, &look, &view);
+            ow_shader_make(&shader, &ow_parts_all, &look, &view);
             uint32_t colour = ow_face_colour(&shader, &scene.tree, &face);
             uint32_t got = ow_shade_face(&shader, &scene.tree, &face);
             double share = expected_at(&look, middle, normal);
@@ -315,7 +315,7 @@ static void extremes_are_bounded(void **state)
         for (uint32_t k = 0; k < OW_LIGHTS_MAX; k++) {
             struct ow_light *light = &look.lights[k];
             *light = (struct ow_light){ .intensity_q8 = 65535, .in_model_space = n % 4 < 2 };
-            light->kind = random_below(2) ? &ow_light_point : NULL;
+            light->at_point = random_below(2);
             for (uint32_t i = 0; i < 3; i++) {
                 light->direction_q14[i] = random_below(2) ? INT16_MAX : INT16_MIN;
                 light->place[i] = places[random_below(5)];
@@ -325,7 +325,7 @@ static void extremes_are_bounded(void **state)
         struct ow_shader shader;
         struct ow_face face = { .at = scene.tree.polygons_at, .reverse = n % 3 == 0 };
         look.shade = OW_SHADE_FLAT;
-        ow_shader_make(&shader, &look, &view);
+        ow_shader_make(&shader, &ow_parts_all, &look, &view);
         assert_int_equal(ow_shade_face(&shader, &scene.tree, &face),
                          ow_face_colour(&shader, &scene.tree, &face));
     }
@@ -366,7 +366,6 @@ static void all_orders_draw_one_picture(void **state)
         add(&look, at_point(1000, 20000, 9000, 120));
         add(&look, from_direction(1, 0, 0, 60));
         if (n >= 3) {
-            look.effect = &ow_effect_map_and_depth;
             look.depth_far = 100000 * 256;
         }
         if (n >= 6 && view.projection == OW_PERSPECTIVE) {

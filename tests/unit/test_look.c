@@ -86,7 +86,6 @@ static void set_depth_cue(struct ow_look *look, const struct random_scene *scene
 {
     double near = 1e9;
     double far = 0;
-    look->effect = &ow_effect_map_and_depth;
     for (uint32_t i = 0; i < scene->tree.vertex_count; i++) {
         double z = depth(scene, view, i);
         near = fmin(near, z);
@@ -115,9 +114,9 @@ static void test_depth_cue(void **state)
         random_scene_make(&scene, FACES, true);
         struct ow_view view = random_scene_view(&scene, i, WIDTH, HEIGHT);
         struct ow_look look = random_scene_look(OW_SHADE_FLAT);
-        ow_shader_make(&plain, &look, &view);
+        ow_shader_make(&plain, &ow_parts_all, &look, &view);
         set_depth_cue(&look, &scene, &view);
-        ow_shader_make(&shader, &look, &view);
+        ow_shader_make(&shader, &ow_parts_all, &look, &view);
         struct ow_face face = { .at = scene.tree.polygons_at, .reverse = false };
         for (uint32_t n = 0; n < FACES; n++) {
             double nearest = 1e9;
@@ -149,10 +148,9 @@ static void test_smooth_parts(void **state)
         struct ow_look look = random_scene_look(shades[i % 2]);
         look.specular_q8 = 0;
         look.map = OW_MAP_HEAT;
-        look.effect = &ow_effect_map_and_depth;
-        ow_shader_make(&plain, &look, &view);
+        ow_shader_make(&plain, &ow_parts_all, &look, &view);
         set_depth_cue(&look, &scene, &view);
-        ow_shader_make(&shader, &look, &view);
+        ow_shader_make(&shader, &ow_parts_all, &look, &view);
         for (uint32_t vertex = 0; vertex < scene.tree.vertex_count; vertex++) {
             struct ow_corner_light light;
             ow_shade_corner(&shader, &scene.tree, vertex, false, &light);
@@ -259,15 +257,10 @@ static void test_refusals(void **state)
         struct ow_look look = random_scene_look(OW_SHADE_FLAT);
         look.depth_near = wrong[i][0];
         look.depth_far = wrong[i][1];
-        look.effect = &ow_effect_map_and_depth;
         assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
     }
     struct ow_look look = random_scene_look(OW_SHADE_FLAT);
-    look.effect = &ow_effect_map_and_depth;
     look.map = (enum ow_map)(OW_MAP_SPECTRUM + 1);
-    assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
-    look.effect = NULL;
-    look.map = OW_MAP_HEAT;
     assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
     look.map = OW_MAP_NONE;
     assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_OK);

@@ -126,4 +126,20 @@ static inline void ow_write_run(struct ow_surface *surface, uint32_t line, uint3
     surface->spans_written++;
 }
 
+/* The same for count spans. */
+static inline void ow_write_spans(struct ow_surface *surface, const struct ow_span *spans,
+                                  uint32_t count)
+{
+    const struct ow_target *target = surface->target;
+    if (surface->write == NULL && target->format->fill_spans != NULL) {
+        surface->pixels_written +=
+            target->format->fill_spans(surface->top, target->stride, spans, count, surface->colour);
+        surface->spans_written += count;
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        ow_write_run(surface, spans[i].line, spans[i].first, spans[i].end);
+    }
+}
+
 #endif

@@ -123,7 +123,6 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     frame->window.end_line = target->first_line + target->line_count;
     frame->background = target->format->pack(frame->look->background);
     surface->target = target;
-    surface->top = (uintptr_t)target->pixels - (uintptr_t)target->first_line * target->stride;
     surface->width = frame->view->width;
     surface->unlit = workspace->unlit;
     surface->open_pixels = workspace->open_pixels;

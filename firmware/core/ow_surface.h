@@ -26,7 +26,6 @@ struct ow_surface {
     const struct ow_backdrop *backdrop; /* NULL: one colour */
     const struct ow_differences *difference;
     struct ow_changes *changes; /* to be marked at writing; NULL: nobody asks, or all were marked */
-    uintptr_t top;              /* where line 0 of the view would begin in the target */
     uint32_t width;
     uint32_t rgb;    /* of the face being scanned; the material's if it is smooth */
     uint32_t colour; /* the same packed, if it is not smooth */
@@ -132,8 +131,9 @@ static inline void ow_write_spans(struct ow_surface *surface, const struct ow_sp
 {
     const struct ow_target *target = surface->target;
     if (surface->write == NULL && target->format->fill_spans != NULL) {
-        surface->pixels_written +=
-            target->format->fill_spans(surface->top, target->stride, spans, count, surface->colour);
+        surface->pixels_written += target->format->fill_spans(
+            (uintptr_t)target->pixels - (uintptr_t)target->first_line * target->stride,
+            target->stride, spans, count, surface->colour);
         surface->spans_written += count;
         return;
     }

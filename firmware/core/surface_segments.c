@@ -21,11 +21,15 @@ _Static_assert((int)OW_SCREEN_MAX < (int)HOLDS_BITS, "a count of pixels leaves t
 
 enum { SEGMENTS_MOST = 64 }; /* of a list: it is copied to the stack when it becomes bits */
 
-/* One scan line. */
+enum { RUNS_MOST = 24 }; /* on their way to the target, to be written in one call */
+
+/* One scan line after the other. */
 struct line {
     uint32_t *list; /* its part of the pool */
     uint32_t number;
     uint32_t open; /* unlit pixels, and the mark */
+    uint32_t run_count;
+    struct ow_span runs[RUNS_MOST];
 };
 
 static inline uint32_t segment(uint32_t first, uint32_t end)
@@ -129,7 +133,12 @@ static bool hides(const struct ow_surface *surface, const struct ow_box *box)
 static inline void paint(struct ow_surface *surface, struct line *line, uint32_t first,
                          uint32_t end)
 {
-    ow_write_run(surface, line->number, first, end);
+    if (line->run_count == RUNS_MOST) {
+        ow_write_spans(surface, line->runs, RUNS_MOST);
+        line->run_count = 0;
+    }
+    line->runs[line->run_count++] =
+        (struct ow_span){ (uint16_t)line->number, (uint16_t)first, (uint16_t)end };
     line->open -= end - first;
 }
 
@@ -221,26 +230,36 @@ static inline void merge(struct ow_surface *surface, struct line *line, uint32_t
     }
 }
 
+static inline void take_span(struct ow_surface *surface, struct line *line,
+                             const struct ow_span *span)
+{
+    uint32_t row = span->line - (uint32_t)surface->target->first_line;
+    line->open = surface->open_pixels[row];
+    if (line->open == 0) {
+        return;
+    }
+    line->list = surface->unlit + row * surface->words_in_line;
+    line->number = span->line;
+    if (line->open & HOLDS_BITS) {
+        merge_bits(surface, line, span->first, span->end);
+    } else {
+        merge(surface, line, span->first, span->end);
+    }
+    if ((line->open & ~(uint32_t)HOLDS_BITS) == 0) {
+        line->open = 0;
+        surface->lines_open--;
+    }
+    surface->open_pixels[row] = (uint16_t)line->open;
+}
+
 static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)
 {
+    struct line line;
+    line.run_count = 0;
     for (; count > 0; count--, spans++) {
-        uint32_t row = spans->line - (uint32_t)surface->target->first_line;
-        struct line line = { surface->unlit + row * surface->words_in_line, spans->line,
-                             surface->open_pixels[row] };
-        if (line.open == 0) {
-            continue;
-        }
-        if (line.open & HOLDS_BITS) {
-            merge_bits(surface, &line, spans->first, spans->end);
-        } else {
-            merge(surface, &line, spans->first, spans->end);
-        }
-        if ((line.open & ~(uint32_t)HOLDS_BITS) == 0) {
-            line.open = 0;
-            surface->lines_open--;
-        }
-        surface->open_pixels[row] = (uint16_t)line.open;
+        take_span(surface, &line, spans);
     }
+    ow_write_spans(surface, line.runs, line.run_count);
 }
 
 /* The background goes where nothing was written: no clear before, each pixel once. */
@@ -248,12 +267,15 @@ static void end(struct ow_surface *surface, uint32_t background)
 {
     uint32_t pixels = surface->pixels_written;
     uint32_t spans = surface->spans_written;
+    struct line line;
+    line.run_count = 0;
     ow_surface_become_background(surface, background);
     for (uint32_t row = 0; row < surface->target->line_count; row++) {
-        const struct ow_span line = { (uint16_t)(surface->target->first_line + row), 0,
-                                      (uint16_t)surface->width };
-        take(surface, &line, 1);
+        const struct ow_span whole = { (uint16_t)(surface->target->first_line + row), 0,
+                                       (uint16_t)surface->width };
+        take_span(surface, &line, &whole);
     }
+    ow_write_spans(surface, line.runs, line.run_count);
     surface->pixels_background += surface->pixels_written - pixels;
     surface->pixels_written = pixels;
     surface->spans_written = spans;

@@ -41,6 +41,7 @@ static void build_tree(struct compiler *c)
                                  .candidates = options->candidates,
                                  .conflict_weight = options->conflict_weight,
                                  .seed = options->seed,
+                                 .threads = options->threads,
                                  .tolerance_q8 = options->tolerance_q8,
                                  .dividing = options->dividing,
                                  .dividing_axis = options->dividing_axis,

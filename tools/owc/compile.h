@@ -28,6 +28,7 @@ struct compile_options {
     bool repair;            /* turn over what looks inwards; implies check */
     FILE *explain;          /* where to say what was split; NULL: nowhere */
     uint64_t seed;
+    uint32_t threads; /* 0: as many as there are processors */
     enum sides sides;
     uint32_t tolerance_q8; /* side tests: lattice steps with 8 fraction bits */
     bool keep_ids;

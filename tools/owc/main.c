@@ -14,6 +14,7 @@
 #include "plot.h"
 #include "progress.h"
 #include "stats.h"
+#include "workers.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 #include "tools/common/outfile.h"
@@ -43,6 +44,7 @@ struct command {
     double crease;
     uint64_t candidates;
     uint64_t seed;
+    uint64_t threads;
     double tolerance;
     int dividing;
     bool repair;
@@ -160,6 +162,8 @@ static void parse(struct command *c, int argc, char **argv)
         { "sides", 0, OPTION_CHOICE, &c->sides, NULL, "auto: one if the model is closed",
           .choices = sides },
         { "seed", 0, OPTION_UNSIGNED, &c->seed, "N", "of random choices", .choices = NULL },
+        { "threads", 0, OPTION_UNSIGNED, &c->threads, "N",
+          "threads at work; 0: one for each processor", .max = WORKERS_MOST },
         { "keep-ids", 0, OPTION_FLAG, &c->keep_ids, NULL, "keep the source polygons' numbers",
           .choices = NULL },
         { "normals", 0, OPTION_CHOICE, &c->normals, NULL, "vertex normals, for smooth shading",
@@ -283,6 +287,7 @@ static void compile_new(const struct command *c)
         .dividing = c->planes_file != NULL ? &planes : NULL,
         .dividing_axis = c->dividing == 1,
         .seed = c->seed,
+        .threads = (uint32_t)c->threads,
         .sides = (enum sides)c->sides,
         .tolerance_q8 = tolerance_q8(c),
         .keep_ids = c->keep_ids,

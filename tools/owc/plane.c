@@ -371,15 +371,22 @@ static void add_record(struct grouper *g, uint32_t founder)
     g->planes->shared += g->member_count > 1;
 }
 
+void plane_set(struct plane *plane, const int32_t n[3], int64_t d, int64_t reach,
+               uint32_t tolerance_q8)
+{
+    *plane = (struct plane){ .d = d, .reach = reach, .offset = (double)d };
+    for (int k = 0; k < 3; k++) {
+        plane->n[k] = n[k];
+        plane->normal[k] = n[k];
+    }
+    plane->tolerance = exact_tolerance(n, tolerance_q8);
+    plane->sure = (double)(plane->tolerance > reach ? plane->tolerance : reach) + 1;
+}
+
 uint32_t plane_add(struct planes *planes, const int32_t n[3], int64_t d, int64_t reach)
 {
-    struct plane plane = { .d = d, .reach = reach, .offset = (double)d };
-    for (int k = 0; k < 3; k++) {
-        plane.n[k] = n[k];
-        plane.normal[k] = n[k];
-    }
-    plane.tolerance = exact_tolerance(n, planes->tolerance_q8);
-    plane.sure = (double)(plane.tolerance > reach ? plane.tolerance : reach) + 1;
+    struct plane plane;
+    plane_set(&plane, n, d, reach, planes->tolerance_q8);
     planes->all =
         xgrow(planes->all, &planes->capacity, (size_t)planes->count + 1, sizeof *planes->all);
     planes->all[planes->count] = plane;

@@ -74,6 +74,53 @@ static void choose(struct thinker *t, struct obstruction_entry *entry, uint64_t 
     obstruction_set_free(&part);
 }
 
+/* Faces in one plane from which on their order is not searched for. */
+enum { MANY_FLAT = 4096 };
+
+static bool is_flat(const struct obstruction_set *set)
+{
+    uint32_t i = 1;
+    while (i < set->count && set->faces[i].plane == set->faces[0].plane) {
+        i++;
+    }
+    return i == set->count;
+}
+
+struct by_file {
+    uint32_t polygon;
+    uint32_t face;
+};
+
+static int compare_by_file(const void *left, const void *right)
+{
+    const struct by_file *a = left;
+    const struct by_file *b = right;
+    return a->polygon != b->polygon ? (a->polygon > b->polygon ? 1 : -1)
+                                    : (a->face > b->face) - (a->face < b->face);
+}
+
+/*
+ * Very many faces in one plane, in the file's order: no search for components,
+ * which takes long where they lie on one another.
+ */
+static void keep_file_order(struct thinker *t)
+{
+    uint32_t count = t->set.count;
+    struct by_file *sorted = xalloc(count, sizeof *sorted);
+    for (uint32_t i = 0; i < count; i++) {
+        sorted[i] = (struct by_file){ t->set.faces[i].polygon, i };
+    }
+    qsort(sorted, count, sizeof *sorted, compare_by_file);
+    t->components.faces = xalloc(count, sizeof *t->components.faces);
+    for (uint32_t i = 0; i < count; i++) {
+        t->components.faces[i] = sorted[i].face;
+    }
+    for (uint32_t i = 0; i < count; i += CHUNK_MOST) {
+        add_entry(t, OBSTRUCTION_CHUNK, i, count - i < CHUNK_MOST ? count - i : CHUNK_MOST);
+    }
+    free(sorted);
+}
+
 void obstruction_think(struct obstruction_thought *thought, const struct obstruction_world *world,
                        const tree_item *items, uint32_t count, uint64_t seed, uint32_t spare)
 {
@@ -81,8 +128,12 @@ void obstruction_think(struct obstruction_thought *thought, const struct obstruc
     *thought = (struct obstruction_thought){ 0 };
     obstruction_set_begin(&t.set, world->mesh, world->arrangement, world->pieces,
                           world->tolerance, items, count);
-    components_find(&t.components, &t.set);
-    list_entries(&t);
+    if (count >= MANY_FLAT && is_flat(&t.set)) {
+        keep_file_order(&t);
+    } else {
+        components_find(&t.components, &t.set);
+        list_entries(&t);
+    }
     for (uint32_t i = 0; i < thought->entry_count; i++) {
         if (thought->entries[i].kind == OBSTRUCTION_SWITCH) {
             choose(&t, &thought->entries[i], seed, spare);

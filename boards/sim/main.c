@@ -130,6 +130,7 @@ static void start_viewer(struct run *run)
     const struct settings *settings = &run->settings;
     struct ow_viewer_config *config = &run->config;
     run->clock = (struct ow_clock){ &sim_virtual_clock_ops, &run->time };
+    config->parts = &ow_parts_all;
     config->tree = &run->tree.tree;
     config->look = settings->look;
     if (settings->cuts) {

@@ -11,7 +11,7 @@ static void fill_gradient(void *context, const struct ow_pixel_format *format, u
     uint32_t last = gradient->height > 1 ? gradient->height - 1u : 1;
     uint32_t rgb = ow_mix(gradient->top, gradient->bottom, line * 256 / last);
     if (gradient->dither && format->dither != NULL) {
-        ow_dither_fill(format, row, line, first, end, rgb);
+        ow_dithering.fill(format, row, line, first, end, rgb);
     } else {
         format->fill(row, first, end, format->pack(rgb));
     }

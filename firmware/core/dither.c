@@ -14,8 +14,8 @@ static void fill_each(const struct ow_pixel_format *format, uint8_t *row, uint32
     }
 }
 
-void ow_dither_fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
-                    uint32_t end, uint32_t rgb)
+static void fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
+                 uint32_t end, uint32_t rgb)
 {
     uint32_t whole = (first + PERIOD - 1) / PERIOD; /* periods, as numbered from the left */
     uint32_t end_whole = end / PERIOD;
@@ -34,10 +34,12 @@ void ow_dither_fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t
     fill_each(format, row, y, end_whole * PERIOD, end, rgb);
 }
 
-void ow_dither_store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
-                     uint32_t end, const uint32_t *rgb)
+static void store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
+                  uint32_t end, const uint32_t *rgb)
 {
     for (uint32_t x = first; x < end; x++) {
         format->fill(row, x, x + 1, format->dither(*rgb++, ow_dither_threshold(x, y)));
     }
 }
+
+const struct ow_dithering ow_dithering = { fill, store };

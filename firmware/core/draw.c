@@ -5,24 +5,10 @@
  */
 #include "ow_draw.h"
 
-#include "ow_coverage.h"
 #include "ow_frame.h"
-#include "ow_lines.h"
 #include "ow_memory.h"
 
 enum { PIXELS_A_UNIT = 16 }; /* of the work budget */
-
-/* The walk asks: can nothing of what is below this node be seen? */
-static bool hides_node(void *context, const struct ow_tree *tree, uint32_t bounds_at)
-{
-    const struct ow_frame *frame = context;
-    struct ow_bounds bounds = ow_read_bounds(tree, bounds_at);
-    struct ow_box box;
-    return (frame->rule == OW_WINDING_POSITIVE && ow_cone_looks_away(frame->view, &bounds)) ||
-           !ow_sphere_box(&frame->frustum, &bounds, &frame->window, &box) ||
-           (frame->kind != NULL && frame->kind->hides != NULL &&
-            frame->kind->hides(&frame->surface, &box)); /* not yet aimed: a list is being made */
-}
 
 /* A stamp that no entry of the cache has yet: what is cached is one frame's. */
 static uint32_t next_stamp(struct ow_workspace *workspace)
@@ -44,12 +30,25 @@ static bool workspace_fits(const struct ow_workspace *workspace, const struct ow
             workspace->cache_entries >= tree->vertex_count);
 }
 
+static bool parts_are_there(const struct ow_parts *parts, const struct ow_look *look)
+{
+    bool order = look->order == OW_BACK_TO_FRONT   ? parts->painter != NULL
+                 : look->order == OW_FRONT_TO_BACK ? parts->dynamic != NULL
+                                                   : parts->scan_line != NULL;
+    return order && (!look->coverage || parts->coverage != NULL) &&
+           (look->shade != OW_SHADE_LINES || parts->lines != NULL) &&
+           (!look->dither || parts->dither != NULL);
+}
+
 /* Begins the walk; what the last one counted is added up. */
 static enum ow_status begin_walk(struct ow_frame *frame, enum ow_direction direction)
 {
     enum ow_status status = ow_walk_begin(&frame->walk, frame->tree, frame->view, direction,
                                           frame->look->cull, frame->workspace->stack);
-    frame->walk.skip = (struct ow_walk_skip){ hides_node, frame };
+    const struct ow_skipping *skip = frame->workspace->parts->skip;
+    if (skip != NULL) {
+        frame->walk.skip = (struct ow_walk_skip){ skip->hides, frame };
+    }
     return status;
 }
 
@@ -63,8 +62,12 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
                              const struct ow_look *look, struct ow_workspace *workspace)
 {
     struct ow_frame *frame = workspace->frame;
+    const struct ow_parts *parts = workspace->parts;
     if (!workspace_fits(workspace, tree, view) || !ow_look_fits(look, workspace)) {
         return OW_ARGUMENT;
+    }
+    if (!parts_are_there(parts, look)) {
+        return OW_UNSUPPORTED;
     }
     if (ow_shade_is_smooth(look->shade) && !(tree->flags & OW_TREE_NORMALS)) {
         return OW_NORMALS;
@@ -82,10 +85,12 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     frame->window = (struct ow_window){ 0, view->height, view->width };
     frame->tag = next_stamp(workspace);
     frame->gradient.beside = look->coverage;
-    frame->draw_face = look->shade == OW_SHADE_LINES ? ow_lines_draw_face
-                       : look->coverage              ? ow_coverage_draw_face
-                                                     : NULL;
-    ow_frustum_make(&frame->frustum, view);
+    frame->faces = look->shade == OW_SHADE_LINES ? parts->lines
+                   : look->coverage              ? parts->coverage
+                                                 : NULL;
+    if (parts->skip != NULL) {
+        parts->skip->begin(frame);
+    }
     ow_shader_make(&frame->shader, look, view);
     frame->shader.caps = frame->shader.caps && (tree->flags & OW_TREE_CLOSED);
     enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
@@ -94,7 +99,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
         ow_project_vertices(tree, view, 0, tree->vertex_count, workspace->points);
     }
     if (status == OW_OK && look->order == OW_SCAN_LINE) {
-        status = ow_scan_lines_begin(frame);
+        status = parts->scan_line->begin(frame);
         end_walk(frame);
     }
     return status;
@@ -121,23 +126,23 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     surface->shader = &frame->shader;
     surface->gradient = ow_shade_is_smooth(frame->shader.shade) ? &frame->gradient : NULL;
     surface->changes = NULL;
+    surface->difference = workspace->parts->difference;
     if (target->changes != NULL && target->changes->known) {
-        if (kind == &ow_surface_dynamic) {
+        if (kind->writes_once) {
             surface->changes = target->changes;
-        } else { /* it writes pixels more than once */
-            for (uint32_t i = 0; i < target->line_count; i++) {
-                ow_changes_mark(target->changes, target->first_line + i, 0, surface->width);
-            }
+        } else {
+            surface->difference->mark_all(target->changes, target, surface->width);
         }
     }
-    ow_surface_choose_write(surface, frame->look);
+    ow_surface_choose_write(surface, frame->look, workspace->parts->dither);
 }
 
 /* Small triangles: all vertices are projected, and only fronts are seen. */
 static bool goes_the_fast_way(const struct ow_frame *frame)
 {
-    return frame->workspace->cache_mask == OW_CACHE_ALL && frame->rule == OW_WINDING_POSITIVE &&
-           frame->draw_face == NULL && frame->look->budget == 0 &&
+    return frame->workspace->parts->draw_small != NULL &&
+           frame->workspace->cache_mask == OW_CACHE_ALL && frame->rule == OW_WINDING_POSITIVE &&
+           frame->faces == NULL && frame->look->budget == 0 &&
            frame->workspace->span_capacity >= OW_SMALL_SPANS;
 }
 
@@ -148,7 +153,7 @@ void ow_frame_walk(struct ow_frame *frame)
     const uint32_t before = surface->pixels_written;
     const uint32_t budget = frame->look->budget > 0 ? frame->look->budget : UINT32_MAX;
     if (goes_the_fast_way(frame)) {
-        ow_draw_small(frame);
+        frame->workspace->parts->draw_small(frame);
     }
     while (surface->lines_open > 0 && ow_walk_next(&frame->walk, &frame->face)) {
         if (frame->walk.faces_met + (surface->pixels_written - before) / PIXELS_A_UNIT > budget) {
@@ -162,10 +167,12 @@ void ow_frame_walk(struct ow_frame *frame)
 
 static void draw_band(struct ow_frame *frame, const struct ow_target *target)
 {
-    const struct ow_surface_kind *kind = frame->look->coverage ? &ow_surface_coverage
-                                         : frame->look->order == OW_FRONT_TO_BACK
-                                             ? &ow_surface_dynamic
-                                             : &ow_surface_painter;
+    const struct ow_parts *parts = frame->workspace->parts;
+    const struct ow_surface_kind *kind =
+        frame->look->order == OW_FRONT_TO_BACK ? parts->dynamic : parts->painter;
+    if (frame->faces != NULL && frame->faces->surface != NULL) {
+        kind = frame->faces->surface;
+    }
     ow_frame_aim(frame, kind, target);
     kind->begin(&frame->surface, frame->background);
     ow_frame_walk(frame);
@@ -179,6 +186,7 @@ static bool target_fits(const struct ow_frame *frame, const struct ow_target *ta
            end_line <= frame->view->height && target->stride % 4 == 0 &&
            target->stride >= ow_row_bytes(target->format, frame->view->width) &&
            (uintptr_t)target->pixels % 4 == 0 &&
+           (target->changes == NULL || frame->workspace->parts->difference != NULL) &&
            (target->changes == NULL || (target->changes->width == frame->view->width &&
                                         target->changes->height == frame->view->height));
 }
@@ -192,7 +200,7 @@ enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_targ
     }
     if (frame->look->order != OW_SCAN_LINE) {
         draw_band(frame, target);
-    } else if (ow_scan_lines_draw(frame, target) != OW_OK) {
+    } else if (frame->workspace->parts->scan_line->draw(frame, target) != OW_OK) {
         return OW_ARGUMENT;
     }
     if (stats != NULL) {

@@ -5,7 +5,6 @@
  */
 #include "ow_clip.h"
 #include "ow_frame.h"
-#include "ow_lines.h"
 #include "ow_project.h"
 
 /* The face's outline by way of the clipper. Returns its count of points, 0 for none. */
@@ -13,12 +12,12 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
 {
     struct ow_workspace *workspace = frame->workspace;
     bool smooth = ow_shade_is_smooth(frame->shader.shade);
-    bool lines = frame->shader.shade == OW_SHADE_LINES;
+    bool marks = frame->faces != NULL && frame->faces->leaves_out != NULL;
     for (uint32_t i = 0; i < corners; i++) {
         uint32_t from = face->reverse ? corners - 1 - i : i;
         uint32_t vertex = ow_corner(frame->tree, face->at, from);
         workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
-        workspace->clip[0][i].marked = lines && ow_line_is_left_out(frame, i);
+        workspace->clip[0][i].marked = marks && frame->faces->leaves_out(frame, i);
         if (smooth) {
             workspace->clip[0][i].light =
                 ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse);
@@ -32,7 +31,7 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
     for (uint32_t i = 0; i < count; i++) {
         workspace->outline[i] = ow_to_screen(frame->view, workspace->clip[which][i]);
         workspace->corner_lights[i] = workspace->clip[which][i].light;
-        if (lines) {
+        if (marks) {
             workspace->corner_lights[i].part[0] = workspace->clip[which][i].marked;
         }
     }
@@ -120,8 +119,8 @@ bool ow_face_outline(struct ow_frame *frame, struct ow_box *box)
     if (!ow_face_project(frame)) {
         return false;
     }
-    return frame->shader.shade == OW_SHADE_LINES
-               ? ow_lines_box(frame, box)
+    return frame->faces != NULL && frame->faces->box != NULL
+               ? frame->faces->box(frame, box)
                : ow_outline_box(frame->workspace->outline, frame->points, &frame->window, box);
 }
 
@@ -150,8 +149,8 @@ bool ow_draw_face(struct ow_frame *frame)
     struct ow_surface *surface = &frame->surface;
     struct ow_box box;
     uint32_t before = surface->spans_written;
-    if (frame->draw_face != NULL) {
-        frame->draw_face(frame);
+    if (frame->faces != NULL) {
+        frame->faces->draw(frame);
         return surface->spans_written != before;
     }
     if (!project_face(frame) ||

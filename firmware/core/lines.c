@@ -21,7 +21,8 @@ bool ow_edge_is_marked(const struct ow_tree *tree, const struct ow_face *face, u
     return ow_read_u16(bytes, marks_at + edge / 16 * 2) >> edge % 16 & 1;
 }
 
-bool ow_line_is_left_out(const struct ow_frame *frame, uint32_t i)
+/* It is marked, or the face is part of a cap, which shows only where it was cut. */
+static bool leaves_out(const struct ow_frame *frame, uint32_t i)
 {
     return (frame->shader.caps && frame->face.reverse) ||
            ow_edge_is_marked(frame->tree, &frame->face, i);
@@ -208,7 +209,7 @@ static bool is_front(const struct ow_frame *frame)
     return twice_area < 0 || (twice_area > 0 && frame->rule == OW_WINDING_ANY);
 }
 
-bool ow_lines_box(const struct ow_frame *frame, struct ow_box *box)
+static bool lines_box(const struct ow_frame *frame, struct ow_box *box)
 {
     return is_front(frame) && reach(frame, box);
 }
@@ -226,8 +227,8 @@ static void draw_lines(struct ow_frame *frame)
     const struct ow_outline_point *p = workspace->outline;
     use_colour(frame, ow_shade_face(&frame->shader, frame->tree, &frame->face));
     for (uint32_t i = 0; i < frame->points; i++) {
-        bool marked = frame->clipped ? workspace->corner_lights[i].part[0] != 0
-                                     : ow_line_is_left_out(frame, i);
+        bool marked =
+            frame->clipped ? workspace->corner_lights[i].part[0] != 0 : leaves_out(frame, i);
         if (!marked) {
             add_line(frame, p[i], p[i + 1 < frame->points ? i + 1 : 0]);
         }
@@ -248,7 +249,7 @@ static void draw_inside(struct ow_frame *frame)
     }
 }
 
-void ow_lines_draw_face(struct ow_frame *frame)
+static void draw_face(struct ow_frame *frame)
 {
     struct ow_box box;
     if (!ow_face_outline(frame, &box) ||
@@ -263,3 +264,5 @@ void ow_lines_draw_face(struct ow_frame *frame)
         draw_lines(frame);
     }
 }
+
+const struct ow_face_kind ow_faces_in_lines = { NULL, draw_face, lines_box, leaves_out };

@@ -13,10 +13,8 @@
 
 enum { OW_SIDE = 4, OW_SAMPLES = 16, OW_ALL_SAMPLES = 0xFFFF };
 
-extern const struct ow_surface_kind ow_surface_coverage;
-
-/* Draws frame->face on the coverage surface. */
-void ow_coverage_draw_face(struct ow_frame *frame);
+/* Covers pixels on a surface of its own. */
+extern const struct ow_face_kind ow_faces_covering;
 
 /* ow_scan.h's functions, window, box and spans counted in samples. */
 bool ow_outline_box_4x4(const struct ow_outline_point *points, uint32_t count,

@@ -17,12 +17,14 @@ static inline uint32_t ow_dither_threshold(uint32_t x, uint32_t y)
     return (d & 1) << 5 | (y & 1) << 4 | (d & 2) << 2 | (y & 2) << 1 | (d & 4) >> 1 | (y & 4) >> 2;
 }
 
-/* Fills pixels first .. end-1 of the screen's line y with one colour 0x00RRGGBB, dithered. */
-void ow_dither_fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
-                    uint32_t end, uint32_t rgb);
-
-/* Stores end - first colours 0x00RRGGBB into pixels first .. end-1, dithered. */
-void ow_dither_store(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
-                     uint32_t end, const uint32_t *rgb);
+struct ow_dithering {
+    /* Fills pixels first .. end-1 of the screen's line y with one colour 0x00RRGGBB. */
+    void (*fill)(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
+                 uint32_t end, uint32_t rgb);
+    /* Stores end - first colours 0x00RRGGBB into pixels first .. end-1. */
+    void (*store)(const struct ow_pixel_format *format, uint8_t *row, uint32_t y, uint32_t first,
+                  uint32_t end, const uint32_t *rgb);
+};
+extern const struct ow_dithering ow_dithering;
 
 #endif

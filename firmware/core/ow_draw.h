@@ -11,6 +11,7 @@
 
 #include "ow_changes.h"
 #include "ow_fixed.h"
+#include "ow_parts.h"
 #include "ow_pixel.h"
 #include "ow_status.h"
 #include "ow_tree.h"
@@ -137,8 +138,9 @@ struct ow_stats {
 };
 
 struct ow_workspace_config {
-    uint16_t width; /* largest view to be drawn, pixels */
-    uint16_t lines; /* most lines of a band */
+    const struct ow_parts *parts; /* what can be drawn: ow_parts_all, or what there is room for */
+    uint16_t width;               /* largest view to be drawn, pixels */
+    uint16_t lines;               /* most lines of a band */
     /* Entries of the vertex cache, a power of two or 0: one for every vertex. 8 bytes each, 12 if they are fewer. */
     uint32_t cached_vertices;
     /*
@@ -154,6 +156,7 @@ struct ow_workspace_config {
 
 /* Private to the core, here so that the caller can place it. */
 struct ow_workspace {
+    const struct ow_parts *parts;
     struct ow_frame *frame;
     struct ow_walk_run *stack;
     struct ow_outline_point *points; /* of vertices: the cache */
@@ -196,7 +199,8 @@ enum ow_status ow_workspace_place(struct ow_workspace *workspace, const struct o
 /*
  * Begins a frame; tree, view and look must stay until its last band. Errors:
  * OW_ARGUMENT (a workspace that is too small or lacks what the look needs; a
- * budget in another order than front to back), OW_SIDES, OW_NORMALS.
+ * budget in another order than front to back), OW_SIDES, OW_NORMALS,
+ * OW_UNSUPPORTED (the workspace's parts lack one that the look needs).
  */
 enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *view,
                              const struct ow_look *look, struct ow_workspace *workspace);

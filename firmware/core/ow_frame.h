@@ -22,6 +22,23 @@ struct ow_listed_face {
     bool painted;
 };
 
+/* How faces come to the surface where filling their outlines is not all. */
+struct ow_face_kind {
+    const struct ow_surface_kind *surface; /* NULL: the order's */
+    void (*draw)(struct ow_frame *frame);  /* draws frame->face */
+    /* As ow_outline_box, of frame->face's outline; NULL: that. */
+    bool (*box)(const struct ow_frame *frame, struct ow_box *box);
+    /* True if the edge from corner i of frame->face's outline is not drawn; NULL: never asked. */
+    bool (*leaves_out)(const struct ow_frame *frame, uint32_t i);
+};
+
+/* Scan line order: lists the faces that touch the view; draws lines from the list. */
+struct ow_line_order {
+    enum ow_status (*begin)(struct ow_frame *frame);
+    enum ow_status (*draw)(struct ow_frame *frame, const struct ow_target *target);
+};
+extern const struct ow_line_order ow_line_order;
+
 /* What one call of ow_draw works with. */
 struct ow_frame {
     struct ow_span_sink sink; /* first: the frame is found from its sink */
@@ -42,11 +59,11 @@ struct ow_frame {
     uint32_t tag; /* the stamp in bits 24-31 */
     bool out_of_budget;
     uint32_t dropped;
-    void (*draw_face)(struct ow_frame *frame); /* in another way than ow_draw_face's; or NULL */
-    uint32_t visited;                          /* faces that walks came by */
-    uint32_t skipped;                          /* nodes that walks left out */
-    uint32_t painted;                          /* faces of which a pixel was written */
-    uint32_t background;                       /* packed */
+    const struct ow_face_kind *faces; /* NULL: they are filled */
+    uint32_t visited;                 /* faces that walks came by */
+    uint32_t skipped;                 /* nodes that walks left out */
+    uint32_t painted;                 /* faces of which a pixel was written */
+    uint32_t background;              /* packed */
     const struct ow_look *look;
     /* Scan line order. */
     struct ow_target line; /* the line being drawn */
@@ -85,10 +102,6 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
 
 /* Draws all faces of the walk, begun anew, into what the frame is aimed at. */
 void ow_frame_walk(struct ow_frame *frame);
-
-/* Scan line order: lists the faces that touch the view; draws lines from the list. */
-enum ow_status ow_scan_lines_begin(struct ow_frame *frame);
-enum ow_status ow_scan_lines_draw(struct ow_frame *frame, const struct ow_target *target);
 
 /* True if this look can be drawn with this workspace. */
 bool ow_look_fits(const struct ow_look *look, const struct ow_workspace *workspace);

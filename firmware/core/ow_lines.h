@@ -14,11 +14,8 @@
 
 #include "ow_frame.h"
 
-/* Draws frame->face: its lines and its pixels. */
-void ow_lines_draw_face(struct ow_frame *frame);
-
-/* The window's pixels that a face's lines may touch. False if there are none. */
-bool ow_lines_box(const struct ow_frame *frame, struct ow_box *box);
+/* Draws a face's lines and its pixels. */
+extern const struct ow_face_kind ow_faces_in_lines;
 
 /*
  * True if the edge from corner i of the face's outline to the next is not to
@@ -26,11 +23,4 @@ bool ow_lines_box(const struct ow_frame *frame, struct ow_box *box);
  * their corners from the last.
  */
 bool ow_edge_is_marked(const struct ow_tree *tree, const struct ow_face *face, uint32_t i);
-
-/*
- * True if the edge from corner i of frame->face's outline is not drawn: it is
- * marked, or the face is part of a cap, which shows only where it was cut.
- */
-bool ow_line_is_left_out(const struct ow_frame *frame, uint32_t i);
-
 #endif

@@ -20,6 +20,8 @@ struct ow_bounds {
     int32_t cosine; /* -128: the faces look everywhere */
 };
 
+struct ow_frame;
+
 struct ow_bounds ow_read_bounds(const struct ow_tree *tree, uint32_t at);
 
 /* The view made ready for tests of spheres: the frustum's sides. */
@@ -40,5 +42,12 @@ bool ow_sphere_box(const struct ow_frustum *frustum, const struct ow_bounds *bou
 
 /* True if every face within the bounds surely looks away from the eye. */
 bool ow_cone_looks_away(const struct ow_view *view, const struct ow_bounds *bounds);
+
+/* How a frame skips: begin makes ready; hides tells whether all below the bounds is unseen. */
+struct ow_skipping {
+    void (*begin)(struct ow_frame *frame);
+    bool (*hides)(void *frame, const struct ow_tree *tree, uint32_t bounds_at);
+};
+extern const struct ow_skipping ow_skipping;
 
 #endif

@@ -24,6 +24,7 @@ struct ow_samples {
 struct ow_surface {
     const struct ow_target *target;
     const struct ow_backdrop *backdrop; /* NULL: one colour */
+    const struct ow_differences *difference;
     struct ow_changes *changes; /* to be marked at writing; NULL: nobody asks, or all were marked */
     uintptr_t top;              /* where line 0 of the view would begin in the target */
     uint32_t width;
@@ -35,8 +36,8 @@ struct ow_surface {
     void (*write)(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
     /* What writes beneath the comparison with what was there; likewise. */
     void (*write_inner)(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
-    bool dither;
-    uint32_t background; /* 0x00RRGGBB */
+    const struct ow_dithering *dither; /* NULL: colours are rounded */
+    uint32_t background;               /* 0x00RRGGBB */
     uint32_t pixels_written;
     uint32_t spans_written;
     uint32_t pixels_background;
@@ -69,6 +70,7 @@ static inline uint32_t ow_tile_words(uint32_t width)
 
 struct ow_surface_kind {
     enum ow_direction direction;
+    bool writes_once; /* each pixel: what is written differs from what was shown, or does not */
     void (*begin)(struct ow_surface *surface, uint32_t background);
     /* Writes count spans of one face in the surface's colour. */
     void (*take)(struct ow_surface *surface, const struct ow_span *spans, uint32_t count);
@@ -85,8 +87,18 @@ static inline uint8_t *ow_line_pixels(const struct ow_target *target, uint32_t l
     return target->pixels + (line - target->first_line) * target->stride;
 }
 
-/* Decides how runs are written; format and gradient must be set. */
-void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look);
+/* Decides how runs are written; format and gradient must be set. dither: NULL without. */
+void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look,
+                             const struct ow_dithering *dither);
+
+/* Who sees at writing time which pixels become different. */
+struct ow_differences {
+    /* Writes as ow_surface.write, and marks the pixels that were something else before. */
+    void (*write)(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end);
+    /* Marks all pixels of the surface's band. */
+    void (*mark_all)(struct ow_changes *changes, const struct ow_target *target, uint32_t width);
+};
+extern const struct ow_differences ow_differences;
 
 /* From now on the surface writes the background; packed: its colour. */
 void ow_surface_become_background(struct ow_surface *surface, uint32_t packed);

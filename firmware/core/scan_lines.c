@@ -41,7 +41,7 @@ static void list_faces(struct ow_frame *frame)
     }
 }
 
-enum ow_status ow_scan_lines_begin(struct ow_frame *frame)
+static enum ow_status begin(struct ow_frame *frame)
 {
     if (frame->workspace->listed_capacity == 0 ||
         frame->view->height > frame->workspace->listed_height) {
@@ -107,7 +107,7 @@ static void draw_line(struct ow_frame *frame, const struct ow_target *target, ui
     kind->end(&frame->surface, frame->background);
 }
 
-enum ow_status ow_scan_lines_draw(struct ow_frame *frame, const struct ow_target *target)
+static enum ow_status draw(struct ow_frame *frame, const struct ow_target *target)
 {
     if (target->first_line < frame->lines_done) {
         return OW_ARGUMENT;
@@ -121,3 +121,5 @@ enum ow_status ow_scan_lines_draw(struct ow_frame *frame, const struct ow_target
     }
     return OW_OK;
 }
+
+const struct ow_line_order ow_line_order = { begin, draw };

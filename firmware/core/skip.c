@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: 0BSD */
 /* Skipping bounded nodes: spheres against the frustum, cones of normals against the eye. */
-#include "ow_skip.h"
-
+#include "ow_frame.h"
 #include "ow_memory.h"
 #include "ow_read.h"
 
@@ -181,3 +180,21 @@ bool ow_cone_looks_away(const struct ow_view *view, const struct ow_bounds *boun
     }
     return cone_looks_away_from(d, &turned);
 }
+
+static void begin(struct ow_frame *frame)
+{
+    ow_frustum_make(&frame->frustum, frame->view);
+}
+
+static bool hides(void *context, const struct ow_tree *tree, uint32_t bounds_at)
+{
+    const struct ow_frame *frame = context;
+    struct ow_bounds bounds = ow_read_bounds(tree, bounds_at);
+    struct ow_box box;
+    return (frame->rule == OW_WINDING_POSITIVE && ow_cone_looks_away(frame->view, &bounds)) ||
+           !ow_sphere_box(&frame->frustum, &bounds, &frame->window, &box) ||
+           (frame->kind != NULL && frame->kind->hides != NULL &&
+            frame->kind->hides(&frame->surface, &box)); /* not yet aimed: a list is being made */
+}
+
+const struct ow_skipping ow_skipping = { begin, hides };

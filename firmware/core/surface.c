@@ -39,8 +39,8 @@ static void write_smooth(struct ow_surface *surface, uint32_t line, uint32_t fir
         for (uint32_t x = first; x < stop; x++) {
             rgb[x - first] = shade_pixel(surface, x);
         }
-        if (surface->dither) {
-            ow_dither_store(format, row, line, first, stop, rgb);
+        if (surface->dither != NULL) {
+            surface->dither->store(format, row, line, first, stop, rgb);
         } else {
             format->store(row, first, stop, rgb);
         }
@@ -50,8 +50,8 @@ static void write_smooth(struct ow_surface *surface, uint32_t line, uint32_t fir
 
 static void write_dithered(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
 {
-    ow_dither_fill(surface->target->format, ow_line_pixels(surface->target, line), line, first, end,
-                   surface->rgb);
+    surface->dither->fill(surface->target->format, ow_line_pixels(surface->target, line), line,
+                          first, end, surface->rgb);
 }
 
 static void write_backdrop(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
@@ -61,47 +61,24 @@ static void write_backdrop(struct ow_surface *surface, uint32_t line, uint32_t f
                    ow_line_pixels(surface->target, line), line, first, end);
 }
 
-/* Writes, and marks the pixels that were something else before. */
-static void write_compared(struct ow_surface *surface, uint32_t line, uint32_t first, uint32_t end)
-{
-    uint8_t *row = ow_line_pixels(surface->target, line);
-    const struct ow_pixel_format *format = surface->target->format;
-    uint32_t before[CHUNK];
-    while (first < end) {
-        uint32_t stop = end - first > CHUNK ? first + CHUNK : end;
-        for (uint32_t x = first; x < stop; x++) {
-            before[x - first] = format->get(row, x);
-        }
-        if (surface->write_inner != NULL) {
-            surface->write_inner(surface, line, first, stop);
-        } else {
-            format->fill(row, first, stop, surface->colour);
-        }
-        for (uint32_t x = first; x < stop; x++) {
-            if (((format->get(row, x) ^ before[x - first]) & format->used) != 0) {
-                ow_changes_mark(surface->changes, line, x, x + 1);
-            }
-        }
-        first = stop;
-    }
-}
-
 static void set_write(struct ow_surface *surface,
                       void (*write)(struct ow_surface *surface, uint32_t line, uint32_t first,
                                     uint32_t end))
 {
     surface->write_inner = write;
-    surface->write = surface->changes != NULL ? write_compared : write;
+    surface->write = surface->changes != NULL ? surface->difference->write : write;
 }
 
-void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look)
+void ow_surface_choose_write(struct ow_surface *surface, const struct ow_look *look,
+                             const struct ow_dithering *dither)
 {
-    surface->dither =
+    bool dithers =
         look->dither && look->shade != OW_SHADE_ID && surface->target->format->dither != NULL;
+    surface->dither = dithers ? dither : NULL;
     surface->background = look->background;
     surface->backdrop = look->backdrop;
     set_write(surface, surface->gradient != NULL ? write_smooth
-                       : surface->dither         ? write_dithered
+                       : surface->dither != NULL ? write_dithered
                                                  : NULL);
 }
 
@@ -111,7 +88,7 @@ void ow_surface_become_background(struct ow_surface *surface, uint32_t packed)
     surface->colour = packed;
     surface->gradient = NULL;
     set_write(surface, surface->backdrop != NULL ? write_backdrop
-                       : surface->dither         ? write_dithered
+                       : surface->dither != NULL ? write_dithered
                                                  : NULL);
 }
 
@@ -121,8 +98,8 @@ void ow_write_background(struct ow_surface *surface, uint32_t line, uint32_t fir
     uint8_t *row = ow_line_pixels(surface->target, line);
     if (surface->backdrop != NULL) {
         write_backdrop(surface, line, first, end);
-    } else if (surface->dither) {
-        ow_dither_fill(surface->target->format, row, line, first, end, surface->background);
+    } else if (surface->dither != NULL) {
+        surface->dither->fill(surface->target->format, row, line, first, end, surface->background);
     } else {
         surface->target->format->fill(row, first, end, packed);
     }

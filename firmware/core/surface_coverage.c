@@ -70,8 +70,8 @@ static void store_pixel(const struct row *row, uint32_t x)
     uint8_t *pixels = ow_line_pixels(surface->target, row->line);
     const uint16_t *sum = row->samples[x].sum;
     uint32_t rgb = mean(sum[0]) << 16 | mean(sum[1]) << 8 | mean(sum[2]);
-    if (surface->dither) {
-        ow_dither_store(format, pixels, row->line, x, x + 1, &rgb);
+    if (surface->dither != NULL) {
+        surface->dither->store(format, pixels, row->line, x, x + 1, &rgb);
     } else {
         format->store(pixels, x, x + 1, &rgb);
     }
@@ -249,7 +249,7 @@ static bool hides(const struct ow_surface *surface, const struct ow_box *box)
     return ow_surface_dynamic.hides(surface, box);
 }
 
-const struct ow_surface_kind ow_surface_coverage = {
+static const struct ow_surface_kind surface_coverage = {
     .direction = OW_NEAREST_FIRST,
     .begin = begin,
     .take = take,
@@ -257,7 +257,7 @@ const struct ow_surface_kind ow_surface_coverage = {
     .hides = hides,
 };
 
-void ow_coverage_draw_face(struct ow_frame *frame)
+static void draw_face(struct ow_frame *frame)
 {
     struct ow_workspace *workspace = frame->workspace;
     const struct ow_window fine = { frame->window.first_line * OW_SIDE,
@@ -277,3 +277,5 @@ void ow_coverage_draw_face(struct ow_frame *frame)
                     &frame->sink);
     }
 }
+
+const struct ow_face_kind ow_faces_covering = { &surface_coverage, draw_face, NULL, NULL };

@@ -134,6 +134,7 @@ static void end(struct ow_surface *surface, uint32_t background)
 
 const struct ow_surface_kind ow_surface_dynamic = {
     .direction = OW_NEAREST_FIRST,
+    .writes_once = true,
     .begin = begin,
     .take = take,
     .end = end,

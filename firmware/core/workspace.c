@@ -42,6 +42,7 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     uint32_t capacity = outline_capacity(tree);
     uint32_t entries = cache_entries(tree, config);
     uint32_t words = (config->width + 31u) / 32;
+    workspace->parts = config->parts;
     workspace->frame = cut(&cutter, 1, sizeof *workspace->frame);
     workspace->stack = cut(&cutter, ow_walk_stack_bytes(tree), 1);
     workspace->points = cut(&cutter, entries, sizeof *workspace->points);
@@ -83,8 +84,9 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
 
 static bool config_is_valid(const struct ow_workspace_config *config)
 {
-    return config->width >= 1 && config->width <= OW_SCREEN_MAX && config->lines >= 1 &&
-           config->lines <= OW_SCREEN_MAX && config->height <= OW_SCREEN_MAX &&
+    return config->parts != NULL && config->width >= 1 && config->width <= OW_SCREEN_MAX &&
+           config->lines >= 1 && config->lines <= OW_SCREEN_MAX &&
+           config->height <= OW_SCREEN_MAX &&
            (config->cached_vertices & (config->cached_vertices - 1)) == 0;
 }
 

@@ -28,7 +28,7 @@ static int check_config(const struct ow_viewer_config *config)
             return status;
         }
     }
-    if (config->tree == NULL || config->views == 0 || config->bands > 2 ||
+    if (config->tree == NULL || config->views == 0 || config->parts == NULL || config->bands > 2 ||
         config->binding_count > OW_BINDINGS_MAX || config->quarter_turns > 3) {
         return OW_ARGUMENT;
     }
@@ -45,6 +45,7 @@ static uint32_t make_layout(struct layout *layout, const struct ow_viewer_config
         lines = info->height;
     }
     layout->workspace = (struct ow_workspace_config){
+        .parts = config->parts,
         .width = info->width,
         .lines = (uint16_t)lines,
         .cached_vertices = config->cached_vertices,

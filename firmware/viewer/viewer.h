@@ -74,6 +74,8 @@ struct ow_viewer_config {
     uint32_t binding_count;            /* at most OW_BINDINGS_MAX */
     uint32_t repeat_us;                /* of a button that is held; 0: it does not repeat */
 
+    const struct ow_parts *parts; /* as in struct ow_workspace_config */
+
     /* Memory against speed. */
     uint16_t band_lines;      /* drawn at a time, rounded up to the panel's alignment; 0: all */
     uint8_t bands;            /* 1, or 2: draw one while the panel takes the other; 0 means 1 */

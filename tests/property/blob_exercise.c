@@ -73,9 +73,9 @@ static void draw_bands(const struct ow_tree *tree, const struct ow_view *view,
                        const struct ow_look *look, const struct ow_pixel_format *format,
                        uint32_t cached)
 {
-    struct ow_workspace_config config = { .width = WIDTH,
-                                          .lines = BAND,
-                                          .cached_vertices = cached };
+    struct ow_workspace_config config = {
+        .parts = &ow_parts_all, .width = WIDTH, .lines = BAND, .cached_vertices = cached
+    };
     uint32_t bytes = ow_workspace_bytes_needed(tree, &config);
     insist(bytes > 0, "a sane configuration was refused");
     void *memory = block_of(bytes);

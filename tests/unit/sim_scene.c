@@ -50,6 +50,7 @@ void scene_open(struct scene *scene, const struct sim_panel_config *panel)
     assert_true(sim_panel_open(&scene->panel, &whole));
     scene->clock = (struct ow_clock){ &sim_virtual_clock_ops, &scene->time };
     scene->config = (struct ow_viewer_config){
+        .parts = &ow_parts_all,
         .tree = &scene->tree,
         .look = { .order = OW_FRONT_TO_BACK,
                   .shade = OW_SHADE_FLAT,

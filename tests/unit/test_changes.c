@@ -21,9 +21,11 @@ static uint32_t bits[HEIGHT * ((WIDTH + 31) / 32)];
 static enum ow_status draw(struct random_scene *scene, const struct ow_view *view,
                            const struct ow_look *look, struct ow_changes *changes, uint32_t lines)
 {
-    const struct ow_workspace_config config = {
-        .width = WIDTH, .lines = HEIGHT, .listed_faces = FACES, .height = HEIGHT
-    };
+    const struct ow_workspace_config config = { .parts = &ow_parts_all,
+                                                .width = WIDTH,
+                                                .lines = HEIGHT,
+                                                .listed_faces = FACES,
+                                                .height = HEIGHT };
     random_scene_place(scene, &config);
     enum ow_status status = ow_draw_begin(&scene->tree, view, look, &scene->workspace);
     for (uint32_t line = 0; line < HEIGHT && status == OW_OK; line += lines) {

@@ -136,9 +136,9 @@ static void draw(struct random_scene *scene, const struct ow_view *view, const s
                  const struct ow_pixel_format *format, uint32_t band_lines, uint8_t *pixels,
                  struct ow_stats *stats)
 {
-    struct ow_workspace_config config = { .width = WIDTH,
-                                          .lines = (uint16_t)band_lines,
-                                          .coverage = true };
+    struct ow_workspace_config config = {
+        .parts = &ow_parts_all, .width = WIDTH, .lines = (uint16_t)band_lines, .coverage = true
+    };
     random_scene_place(scene, &config);
     memset(pixels, 0xA5, STRIDE * HEIGHT);
     assert_int_equal(ow_draw_begin(&scene->tree, view, look, &scene->workspace), OW_OK);
@@ -245,7 +245,7 @@ static void test_refusals(void **state)
 {
     (void)state;
     struct random_scene scene;
-    struct ow_workspace_config config = { .width = WIDTH, .lines = HEIGHT };
+    struct ow_workspace_config config = { .parts = &ow_parts_all, .width = WIDTH, .lines = HEIGHT };
     random_scene_make(&scene, 3, false);
     struct ow_view view = random_scene_view(&scene, 0, WIDTH, HEIGHT);
     struct ow_look look = random_scene_look(OW_SHADE_FLAT);

@@ -99,7 +99,9 @@ static uint32_t pixels[SIZE][SIZE];
 static enum ow_status draw(const struct cut_scene *scene, const struct ow_view *view,
                            enum ow_order order, bool caps)
 {
-    const struct ow_workspace_config config = { .width = SIZE, .lines = SIZE };
+    const struct ow_workspace_config config = { .parts = &ow_parts_all,
+                                                .width = SIZE,
+                                                .lines = SIZE };
     uint32_t bytes = ow_workspace_bytes_needed(&scene->tree, &config);
     void *memory = malloc(bytes);
     struct ow_workspace workspace;

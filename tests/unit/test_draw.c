@@ -23,7 +23,9 @@ struct picture {
     enum ow_status status;
 };
 
-static const struct ow_workspace_config plain = { .width = WIDTH, .lines = HEIGHT };
+static const struct ow_workspace_config plain = { .parts = &ow_parts_all,
+                                                  .width = WIDTH,
+                                                  .lines = HEIGHT };
 
 /* Draws in bands of so many lines; 0: all at once. */
 static void draw(struct picture *picture, struct random_scene *scene,
@@ -109,7 +111,8 @@ static void check_bands(struct random_scene *scene, const struct ow_view *view,
     static const uint32_t lines[] = { 1, 8, 33, 64 };
     static struct picture whole;
     static struct picture bands;
-    struct ow_workspace_config config = { .width = WIDTH,
+    struct ow_workspace_config config = { .parts = &ow_parts_all,
+                                          .width = WIDTH,
                                           .lines = HEIGHT,
                                           .listed_faces = ow_listed_faces_max(&scene->tree),
                                           .height = HEIGHT };
@@ -210,6 +213,79 @@ static void a_budget_leaves_what_is_near(void **state)
     random_scene_free(&scene);
 }
 
+/* The standard orbit, so many times as far away: the farther, the more faces go the fast way. */
+static struct ow_view far_view(const struct random_scene *scene, uint32_t number, int32_t times)
+{
+    struct ow_camera camera = { .projection = OW_PERSPECTIVE,
+                                .fov = UINT32_C(1) << 29,
+                                .width_pixels = WIDTH,
+                                .height_pixels = HEIGHT };
+    struct ow_view view;
+    ow_camera_orbit(&camera, &scene->tree, number * 500000000u, number * 50000000u);
+    for (int i = 0; i < 3; i++) {
+        camera.eye[i] = camera.at[i] + (camera.eye[i] - camera.at[i]) * times;
+    }
+    assert_int_equal(ow_view_make(&view, &camera), OW_OK);
+    return view;
+}
+
+static void parts_that_save_time_change_no_pixel(void **state)
+{
+    (void)state;
+    static struct picture fast;
+    static struct picture slow;
+    struct ow_parts parts = ow_parts_all;
+    struct ow_workspace_config config = plain;
+    struct random_scene scene;
+    uint32_t painted = 0;
+    parts.draw_small = NULL;
+    parts.skip = NULL;
+    config.parts = &parts;
+    random_scene_make(&scene, FACES, true);
+    for (uint32_t number = 0; number < 4 * VIEWS; number++) {
+        static const enum ow_shade shades[] = { OW_SHADE_ID, OW_SHADE_GOURAUD };
+        struct ow_view view = far_view(&scene, number, (int32_t)(1 + number % 4 * 4));
+        struct ow_look look = random_scene_look(shades[number / 4 % 2]);
+        look.order = number & 8 ? OW_FRONT_TO_BACK : OW_BACK_TO_FRONT;
+        draw(&fast, &scene, &plain, &view, &look, number & 16 ? 3 : 0);
+        draw(&slow, &scene, &config, &view, &look, 0);
+        assert_same(&fast, &slow);
+        assert_int_equal(fast.stats.pixels_written, slow.stats.pixels_written);
+        painted += fast.stats.polygons_painted;
+    }
+    assert_true(painted > 300);
+    random_scene_free(&scene);
+}
+
+static void looks_whose_part_is_missing_are_refused(void **state)
+{
+    (void)state;
+    static struct picture picture;
+    static const struct ow_parts painter_alone = { .painter = &ow_surface_painter };
+    struct random_scene scene;
+    random_scene_make(&scene, 5, false);
+    struct ow_view view = random_scene_view(&scene, 0, WIDTH, HEIGHT);
+    struct ow_workspace_config config = plain;
+    config.parts = &painter_alone;
+    const struct ow_look plain_look = random_scene_look(OW_SHADE_FLAT);
+    struct ow_look looks[5] = { plain_look, plain_look, plain_look, plain_look, plain_look };
+    looks[0].order = OW_FRONT_TO_BACK;
+    looks[1].order = OW_SCAN_LINE;
+    looks[2].shade = OW_SHADE_LINES;
+    looks[3].dither = true;
+    looks[4].order = OW_BACK_TO_FRONT;
+    for (uint32_t i = 0; i < 5; i++) {
+        if (i == 2 || i == 3) {
+            looks[i].order = OW_BACK_TO_FRONT;
+        }
+        draw(&picture, &scene, &config, &view, &looks[i], 0);
+        assert_int_equal(picture.status, i == 4 ? OW_OK : OW_UNSUPPORTED);
+    }
+    config.parts = NULL;
+    assert_int_equal(ow_workspace_bytes_needed(&scene.tree, &config), 0);
+    random_scene_free(&scene);
+}
+
 /* What does not fit is refused before anything is written. */
 static void wrong_targets_and_workspaces_are_refused(void **state)
 {
@@ -255,6 +331,8 @@ int main(void)
         cmocka_unit_test(bands_of_any_height_draw_one_picture),
         cmocka_unit_test(little_memory_draws_the_same_picture),
         cmocka_unit_test(a_budget_leaves_what_is_near),
+        cmocka_unit_test(parts_that_save_time_change_no_pixel),
+        cmocka_unit_test(looks_whose_part_is_missing_are_refused),
         cmocka_unit_test(wrong_targets_and_workspaces_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

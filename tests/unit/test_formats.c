@@ -313,9 +313,9 @@ static void test_dither_runs(void **state)
                               format->dither(rgb[x - first], bayer(x & 7, y & 7, 8)));
                 }
                 if (one_colour) {
-                    ow_dither_fill(format, rows.got, y, first, end, colour);
+                    ow_dithering.fill(format, rows.got, y, first, end, colour);
                 } else {
-                    ow_dither_store(format, rows.got, y, first, end, rgb);
+                    ow_dithering.store(format, rows.got, y, first, end, rgb);
                 }
                 rows_compare(&rows);
             }

@@ -132,7 +132,8 @@ static void paint_reference(struct canvas *canvas, const struct random_scene *sc
 static void draw(struct random_scene *scene, const struct ow_view *view, enum ow_order order,
                  const struct ow_pixel_format *format, uint32_t band_lines, uint8_t *pixels)
 {
-    struct ow_workspace_config config = { .width = WIDTH,
+    struct ow_workspace_config config = { .parts = &ow_parts_all,
+                                          .width = WIDTH,
                                           .lines = (uint16_t)band_lines,
                                           .height = HEIGHT,
                                           .listed_faces = ow_listed_faces_max(&scene->tree) };

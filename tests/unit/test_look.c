@@ -169,7 +169,8 @@ static void test_smooth_parts(void **state)
 static void draw(struct random_scene *scene, const struct ow_view *view, const struct ow_look *look,
                  const struct ow_pixel_format *format, uint32_t band_lines, uint32_t *pixels)
 {
-    struct ow_workspace_config config = { .width = WIDTH,
+    struct ow_workspace_config config = { .parts = &ow_parts_all,
+                                          .width = WIDTH,
                                           .lines = (uint16_t)band_lines,
                                           .height = HEIGHT,
                                           .listed_faces = ow_listed_faces_max(&scene->tree) };
@@ -246,7 +247,7 @@ static void test_refusals(void **state)
 {
     (void)state;
     struct random_scene scene;
-    struct ow_workspace_config config = { .width = WIDTH, .lines = HEIGHT };
+    struct ow_workspace_config config = { .parts = &ow_parts_all, .width = WIDTH, .lines = HEIGHT };
     random_scene_make(&scene, 3, false);
     random_scene_place(&scene, &config);
     struct ow_view view = random_scene_view(&scene, 0, WIDTH, HEIGHT);

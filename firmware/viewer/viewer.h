@@ -160,6 +160,20 @@ int ow_viewer_step(struct ow_viewer *viewer);
 /* From the first view again. */
 void ow_viewer_restart(struct ow_viewer *viewer);
 
+/* Where the eye has got to: what a viewer that takes another's place goes on with. */
+struct ow_viewer_place {
+    uint32_t number; /* of the view */
+    ow_turn turn;    /* by input, on top of it */
+    int32_t tilt;
+    int32_t zoom;
+    bool manual; /* it does not turn by itself: input has moved the eye */
+};
+
+void ow_viewer_get_place(const struct ow_viewer *viewer, struct ow_viewer_place *place);
+
+/* To be drawn next. A number of more views than there are begins with the first. */
+void ow_viewer_set_place(struct ow_viewer *viewer, const struct ow_viewer_place *place);
+
 /* The present view must be drawn again: the tree behind it was changed, the panel came back. */
 void ow_viewer_refresh(struct ow_viewer *viewer);
 

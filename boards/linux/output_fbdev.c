@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: 0BSD */
+/* --panel fbdev. */
+#include "hal/linux/fbdev.h"
+#include "output.h"
+
+static struct linux_fbdev the_fbdev;
+
+static int open_fbdev(struct output *output, const struct oldwell_settings *settings,
+                      const struct linux_system *system)
+{
+    const struct linux_fbdev_config config = {
+        .system = system,
+        .device = settings->device != NULL ? settings->device : "/dev/fb0",
+        .bits = (uint32_t)settings->depth,
+        .one_page = settings->one_page,
+    };
+    output->fault = &the_fbdev.fault;
+    output->panel = (struct ow_panel){ &linux_fbdev_ops, &the_fbdev };
+    return linux_fbdev_open(&the_fbdev, &config);
+}
+
+static void close_fbdev(struct output *output)
+{
+    (void)output;
+    linux_fbdev_close(&the_fbdev);
+}
+
+const struct output_kind output_fbdev = {
+    .open = open_fbdev,
+    .close = close_fbdev,
+    .on_console = true,
+};

@@ -6,7 +6,11 @@
 
 static const struct output_kind *const kinds[] = {
     [PANEL_FBDEV] = &output_fbdev,
+#ifdef OLDWELL_DRM
+    [PANEL_DRM] = &output_drm,
+#else
     [PANEL_DRM] = NULL,
+#endif
     [PANEL_V4L2] = NULL,
     [PANEL_FILE] = &output_file,
 };

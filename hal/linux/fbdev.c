@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "hal/linux/formats.h"
+#include "hal/linux/mapping.h"
 
 static int failed(struct linux_fbdev *fbdev, const char *call)
 {
@@ -161,11 +161,10 @@ static int map_memory(struct linux_fbdev *fbdev, const struct fb_fix_screeninfo 
 {
     size_t within = (size_t)fix->smem_start % (size_t)sysconf(_SC_PAGESIZE);
     fbdev->mapped = within + fix->smem_len;
-    void *memory = fbdev->config.system->mmap(fbdev->mapped, fbdev->fd, 0);
-    if (memory == MAP_FAILED) {
+    fbdev->memory = linux_map(fbdev->config.system, fbdev->mapped, fbdev->fd, 0);
+    if (fbdev->memory == NULL) {
         return failed(fbdev, "mmap");
     }
-    fbdev->memory = memory;
     fbdev->screen = fbdev->memory + within + (size_t)fbdev->mode.yoffset * fbdev->stride +
                     (size_t)fbdev->mode.xoffset * fbdev->mode.bits_per_pixel / 8;
     return OW_OK;
@@ -257,7 +256,7 @@ void linux_fbdev_close(struct linux_fbdev *fbdev)
     }
     if (fbdev->memory != NULL) {
         go_back(fbdev);
-        (void)system->munmap(fbdev->memory, fbdev->mapped);
+        linux_unmap(system, fbdev->memory, fbdev->mapped);
     }
     (void)system->close(fbdev->fd);
     free(fbdev->beside);
@@ -340,6 +339,11 @@ static int fbdev_show(void *device, const struct ow_panel_rect *changed, uint32_
         for (uint32_t i = 0; i < count; i++) {
             copy_rect(fbdev, &changed[i]);
         }
+    }
+    if (linux_map_is_lost(fbdev->memory)) {
+        return linux_fault_note(&fbdev->fault, OW_GONE, fbdev->config.device, NULL,
+                                "the device's memory is gone, it was unplugged",
+                                "connect it again");
     }
     fbdev->drawn_at[drawn] = ++fbdev->frames;
     return OW_OK;

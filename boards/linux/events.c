@@ -72,6 +72,11 @@ bool events_open(struct events *events, struct linux_wait *wait)
            linux_wait_add(wait, events->signals, take_signals, events) == OW_OK;
 }
 
+void events_add_signals(struct events *events, struct linux_wait *wait)
+{
+    (void)linux_wait_add(wait, events->signals, take_signals, events);
+}
+
 bool events_watch(struct events *events, const char *path)
 {
     char folder[PATH_MAX];

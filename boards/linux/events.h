@@ -25,6 +25,9 @@ struct events {
 /* Blocks the signals and begins to wait for them. False: errno says why. */
 bool events_open(struct events *events, struct linux_wait *wait);
 
+/* Has another wait end with a signal too. */
+void events_add_signals(struct events *events, struct linux_wait *wait);
+
 /* Watches a file for being written or replaced. False: it cannot be watched, errno says why. */
 bool events_watch(struct events *events, const char *path);
 

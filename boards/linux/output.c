@@ -11,7 +11,7 @@ static const struct output_kind *const kinds[] = {
 #else
     [PANEL_DRM] = NULL,
 #endif
-    [PANEL_V4L2] = NULL,
+    [PANEL_V4L2] = &output_v4l2,
     [PANEL_FILE] = &output_file,
 };
 

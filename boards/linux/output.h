@@ -34,7 +34,8 @@ struct output {
     struct linux_fault *fault; /* never NULL after open */
     int fd;                    /* readable when there is something to look after; -1: never */
     void (*ready)(void *output);
-    void *device; /* the driver's state */
+    void *device;      /* the driver's state */
+    bool uses_changes; /* show profits from knowing what changed */
     bool is_open;
 };
 
@@ -52,5 +53,6 @@ int output_finish(struct output *output);
 extern const struct output_kind output_drm; /* where libdrm is there: OLDWELL_DRM */
 extern const struct output_kind output_fbdev;
 extern const struct output_kind output_file;
+extern const struct output_kind output_v4l2;
 
 #endif

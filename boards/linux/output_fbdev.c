@@ -16,7 +16,9 @@ static int open_fbdev(struct output *output, const struct oldwell_settings *sett
     };
     output->fault = &the_fbdev.fault;
     output->panel = (struct ow_panel){ &linux_fbdev_ops, &the_fbdev };
-    return linux_fbdev_open(&the_fbdev, &config);
+    int status = linux_fbdev_open(&the_fbdev, &config);
+    output->uses_changes = status == OW_OK && the_fbdev.pages == 1;
+    return status;
 }
 
 static void close_fbdev(struct output *output)

@@ -42,11 +42,11 @@ static uint64_t now_us(const struct run *run)
     return now;
 }
 
-/* Sleeps, but not through a signal. */
+/* Sleeps, but not through a signal. Input and the camera wait. */
 static void pause_until(struct run *run, uint64_t until_us)
 {
     while (!run->events.stop && now_us(run) < until_us) {
-        if (run->wait.ops->wait(run->wait.device, until_us) < 0) {
+        if (linux_wait_ops.wait(&run->quiet, until_us) < 0) {
             return;
         }
     }
@@ -108,7 +108,7 @@ static const struct ow_input_ops no_input_ops = { no_input };
 static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tree *tree)
 {
     const struct oldwell_settings *s = run->settings;
-    return (struct ow_viewer_config){
+    struct ow_viewer_config config = {
         .tree = tree,
         .look = s->look,
         .camera = { .projection = OW_PERSPECTIVE,
@@ -118,7 +118,7 @@ static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tr
         .end = OW_VIEWER_REPEAT,
         .elevation = (ow_turn)(int64_t)llround(s->elevation / 360 * 4294967296.0),
         .repeat_us = REPEAT_US,
-        .find_changes = true,
+        .find_changes = run->output.uses_changes,
         .panel = &run->output.panel,
         .clock = &run->clock,
         .input = &run->input,
@@ -127,6 +127,10 @@ static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tr
         .probe = s->stats ? stats_probe : NULL,
         .probe_context = &run->stats,
     };
+    if (run->camera.is_wanted) {
+        config.look.backdrop = &run->camera.backdrop;
+    }
+    return config;
 }
 
 /* Makes a viewer of this tree for the open display and puts it in the old one's place. */
@@ -146,6 +150,7 @@ static int make_viewer(struct run *run, const struct ow_tree *tree,
         return status;
     }
     ow_viewer_set_place(&viewer, place);
+    camera_fit(&run->camera, viewer.panel.width, viewer.panel.height, viewer.turned);
     free(run->memory);
     run->memory = memory;
     run->viewer = viewer;
@@ -255,7 +260,13 @@ static void serve_events(struct run *run)
     }
     if (run->events.second) {
         run->events.second = false;
-        stats_print(&run->stats);
+        camera_second(&run->camera);
+        if (run->settings->stats) {
+            stats_print(&run->stats);
+        }
+    }
+    if (camera_look(&run->camera)) {
+        ow_viewer_refresh(&run->viewer);
     }
 }
 
@@ -305,15 +316,23 @@ static int open_all(struct run *run)
         warn_line(s->tree, 0, "the tree has no polygon numbers, compile it with owc --keep-ids");
         return FAIL_INPUT;
     }
-    if (!events_open(&run->events, &run->waiting) || (s->stats && !events_tick(&run->events))) {
+    if (!events_open(&run->events, &run->waiting) ||
+        ((s->stats || s->camera != NULL) && !events_tick(&run->events))) {
         warn_line(NULL, 0, "signals cannot be waited for: %s", strerror(errno));
         return FAIL_DEVICE;
     }
+    events_add_signals(&run->events, &run->quiet);
     if (!s->no_watch && !s->once && !events_watch(&run->events, s->tree)) {
         warn_line(s->tree, 0, "cannot be watched for changes (%s), SIGHUP loads it anew",
                   strerror(errno));
     }
-    int status = open_display(run, s->wait_s);
+    int status = camera_start(&run->camera, s, run->system, &run->waiting);
+    if (status < 0) {
+        say_fault(&run->camera.device.video.fault, "");
+        return run_exit_status(status);
+    }
+    camera_wait(&run->camera);
+    status = open_display(run, s->wait_s);
     if (status == OW_AGAIN) {
         return 0;
     }
@@ -335,6 +354,7 @@ int run_main(struct run *run, const struct oldwell_settings *settings,
 {
     *run = (struct run){ .settings = settings, .system = system };
     linux_wait_init(&run->waiting, system);
+    linux_wait_init(&run->quiet, system);
     run->wait = (struct ow_wait){ &linux_wait_ops, &run->waiting };
     run->clock = (struct ow_clock){ &linux_clock_ops, (void *)(uintptr_t)system };
     run->input = (struct ow_input){ &no_input_ops, NULL };
@@ -345,6 +365,7 @@ int run_main(struct run *run, const struct oldwell_settings *settings,
     if (status == 0 && run->output.is_open) {
         status = loop(run);
     }
+    camera_stop(&run->camera);
     close_display(run);
     events_close(&run->events);
     free(run->memory);

@@ -6,6 +6,7 @@
 #ifndef OLDWELL_BOARDS_LINUX_RUN_H
 #define OLDWELL_BOARDS_LINUX_RUN_H
 
+#include "camera.h"
 #include "events.h"
 #include "firmware/viewer/viewer.h"
 #include "hal/linux/wait.h"
@@ -18,11 +19,13 @@ struct run {
     const struct oldwell_settings *settings;
     const struct linux_system *system;
     struct linux_wait waiting;
+    struct linux_wait quiet; /* signals alone: to sleep through all else */
     struct ow_wait wait;
     struct ow_clock clock;
     struct ow_input input;
     struct events events;
     struct output output;
+    struct camera camera;
     struct loaded_tree tree;
     struct ow_viewer viewer;
     void *memory; /* the viewer's; malloc */

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "board_file.h"
+#include "hal/camera.h"
 #include "hal/panel.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
@@ -24,6 +25,9 @@ static const char *const panels[] = { "fbdev", "drm", "v4l2", "file", NULL };
 static const char *const orders[] = { "back-to-front", "front-to-back", NULL };
 static const char *const shades[] = { "id", "flat", "gouraud", "phong", "lines", NULL };
 static const char *const coverages[] = { "none", "4x4", NULL };
+static const char *const video_formats[] = { "RGBP", "XR24", "YUYV", "NV12", NULL };
+static const uint32_t video_codes[] = { OW_VIDEO_RGB565, OW_VIDEO_XRGB8888, OW_VIDEO_YUYV,
+                                        OW_VIDEO_NV12 };
 static const char *formats[FORMATS_MOST + 1];
 
 static const char usage[] = "[--board NAME] [options] TREE.owt\n"
@@ -44,6 +48,7 @@ struct raw {
     int shade;
     int coverage;
     int format;
+    int pixels;
     bool dither;
     const char *background;
     const char *foreground;
@@ -82,8 +87,8 @@ static size_t add_panel(struct option_spec *to, struct oldwell_settings *s, stru
         { "connector", 0, OPTION_STRING, &s->connector, "NAME",
           .help = "drm: HDMI-A-1 for example (the first with a screen)" },
         { "mode", 0, OPTION_STRING, &s->mode, "WxH[@HZ]", .help = "drm: (the screen's own)" },
-        { "pixels", 0, OPTION_STRING, &s->pixels, "CODE",
-          .help = "v4l2: RGBP, XR24, YUYV or NV12 (what the device has)" },
+        { "pixels", 0, OPTION_CHOICE, &raw->pixels, NULL, "v4l2: the format (what the device has)",
+          .choices = video_formats },
         { "rotate", 0, OPTION_UNSIGNED, &s->rotate, "DEG",
           "the picture, clockwise: 0, 90, 180 or 270", .max = 270 },
         { "console", 0, OPTION_STRING, &s->console, "DEV",
@@ -163,6 +168,7 @@ static void set_defaults(struct oldwell_settings *s, struct raw *raw)
     *raw = (struct raw){
         .order = OW_FRONT_TO_BACK,
         .shade = OW_SHADE_FLAT,
+        .pixels = -1,
         .background = "20242c",
         .foreground = "f0f0f0",
         .ambient = 0.3,
@@ -290,6 +296,7 @@ static void read_look(struct oldwell_settings *s, const struct raw *raw)
     look->shininess = (uint8_t)raw->shininess;
     read_light(&look->light, raw);
     s->format = ow_formats[raw->format];
+    s->pixels = raw->pixels < 0 ? 0 : video_codes[raw->pixels];
     if (look->coverage && (look->shade == OW_SHADE_ID || look->shade == OW_SHADE_LINES ||
                            look->order != OW_FRONT_TO_BACK)) {
         options_wrong(&table, "--aa 4x4 goes with --order front-to-back and a shade of faces");

@@ -27,7 +27,7 @@ struct oldwell_settings {
     const char *mode;      /* drm: WxH or WxH@HZ; NULL: the preferred one */
     uint64_t rotate;       /* degrees */
     const char *console;   /* auto, none or a terminal's path */
-    const char *pixels;    /* v4l2: the format's four characters */
+    uint32_t pixels;       /* v4l2: OW_VIDEO_...; 0: what the device has */
     const char *camera;    /* NULL: none */
     uint32_t camera_size[2];
     bool has_camera_size;

@@ -111,6 +111,7 @@ struct ow_viewer {
     enum ow_status
         drawn; /* of the last frame: OW_OK, OW_CAPACITY or OW_BUDGET (something was left out) */
     struct ow_view view;   /* of the last frame, turned as the panel needs it */
+    uint8_t turned;        /* quarter turns that the panel leaves to the projection */
     struct ow_stats stats; /* of the last frame */
 
     struct ow_look look; /* the configured one, its light turned with the picture */
@@ -122,9 +123,8 @@ struct ow_viewer {
     uint8_t *band[2];
     uint32_t band_stride; /* bytes */
     uint16_t band_lines;
-    uint8_t turned; /* quarter turns left to the projection */
-    bool changed;   /* the panel does not show the present view yet */
-    bool manual;    /* input has moved the eye: no more turning by itself */
+    bool changed; /* the panel does not show the present view yet */
+    bool manual;  /* input has moved the eye: no more turning by itself */
     bool input_gone;
     ow_turn turn; /* by input, on top of the view's own */
     int32_t tilt;

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <string.h>
 
+#include "doctor.h"
 #include "guardian.h"
 #include "run.h"
 #include "settings.h"
@@ -14,6 +15,10 @@ static struct run run;
 static int draw(void *context)
 {
     (void)context;
+    if (settings.doctor) {
+        struct report report = { .stream = stdout };
+        return doctor_main(&report, &settings, &linux_system);
+    }
     return run_main(&run, &settings, &linux_system);
 }
 
@@ -32,6 +37,9 @@ static int draw_guarded(void)
     struct linux_console console;
     char text[600];
     int number;
+    if (settings.doctor && settings.seconds == 0) {
+        return draw(NULL);
+    }
     if (linux_console_take(&console, &linux_system, settings.console) < 0) {
         linux_fault_text(&console.fault, text, sizeof text);
         warn_line(NULL, 0, "%s; text may be drawn over the picture", text);

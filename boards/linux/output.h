@@ -11,6 +11,7 @@
 #include "hal/linux/fault.h"
 #include "hal/linux/system.h"
 #include "hal/panel.h"
+#include "report.h"
 #include "settings.h"
 
 struct output;
@@ -25,7 +26,10 @@ struct output_kind {
     void (*close)(struct output *output);
     /* Returns when what was shown last is on the screen: OW_OK or a status. NULL: it is at once. */
     int (*finish)(struct output *output);
-    bool on_console; /* it shares the screen with a terminal */
+    /* The doctor: more about an open display. May be NULL. */
+    void (*examine)(const struct output *output, struct report *report);
+    const char *usual_device; /* without --device; NULL: it is looked for */
+    bool on_console;          /* it shares the screen with a terminal */
 };
 
 struct output {

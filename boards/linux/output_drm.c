@@ -67,7 +67,15 @@ static int finish_drm(struct output *output)
     return linux_drm_finish(&the_drm);
 }
 
+static void examine_drm(const struct output *output, struct report *report)
+{
+    (void)output;
+    report_note(report, "drm", "%s: %s at %u Hz, rows of %u bytes", the_drm.config.device,
+                the_drm.mode.name, the_drm.mode.vrefresh, the_drm.buffers[0].pitch);
+}
+
 const struct output_kind output_drm = {
+    .examine = examine_drm,
     .open = open_drm,
     .close = close_drm,
     .finish = finish_drm,

@@ -10,7 +10,7 @@ static int open_fbdev(struct output *output, const struct oldwell_settings *sett
 {
     const struct linux_fbdev_config config = {
         .system = system,
-        .device = settings->device != NULL ? settings->device : "/dev/fb0",
+        .device = settings->device != NULL ? settings->device : output_fbdev.usual_device,
         .bits = (uint32_t)settings->depth,
         .one_page = settings->one_page,
     };
@@ -27,7 +27,18 @@ static void close_fbdev(struct output *output)
     linux_fbdev_close(&the_fbdev);
 }
 
+static void examine_fbdev(const struct output *output, struct report *report)
+{
+    (void)output;
+    report_note(report, "fbdev", "%u bytes a line; %s; %s", the_fbdev.stride,
+                the_fbdev.pages == 2 ? "panning works" : "no panning, or not asked for",
+                the_fbdev.waits ? "it waits for the screen's start"
+                                : "it does not wait for the screen's start");
+}
+
 const struct output_kind output_fbdev = {
+    .examine = examine_fbdev,
+    .usual_device = "/dev/fb0",
     .open = open_fbdev,
     .close = close_fbdev,
     .on_console = true,

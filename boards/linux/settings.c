@@ -145,6 +145,8 @@ static size_t add_run(struct option_spec *to, struct oldwell_settings *s)
           .help = "one line of JSON a second on standard error" },
         { "no-watch", 0, OPTION_FLAG, &s->no_watch, NULL,
           .help = "a changed tree is loaded at SIGHUP only" },
+        { "seconds", 0, OPTION_UNSIGNED, &s->seconds, "S",
+          "doctor: how long its picture stays; 0: not shown", .max = 1e9 },
         { "retry", 0, OPTION_UNSIGNED, &s->retry_s, "S",
           "seconds to try again for when a device fails", .max = 1e9 },
         { "wait", 0, OPTION_UNSIGNED, &s->wait_s, "S", "seconds to wait for a device at the start",
@@ -164,6 +166,7 @@ static void set_defaults(struct oldwell_settings *s, struct raw *raw)
         .orbit = 360,
         .fps = 30,
         .retry_s = 30,
+        .seconds = 10,
     };
     *raw = (struct raw){
         .order = OW_FRONT_TO_BACK,
@@ -210,7 +213,7 @@ static FILE *open_board(const char *name, char *path, size_t bytes)
 }
 
 /* Its text lives as long as the program: settings point into it. */
-static void read_board(const char *name)
+static const char *read_board(const char *name)
 {
     static char path[PATH_BYTES];
     static char text[BOARD_FILE_BYTES_MAX + 1];
@@ -238,6 +241,7 @@ static void read_board(const char *name)
     if (wrong != NULL) {
         fail(FAIL_INPUT, path, line, "%s", wrong);
     }
+    return path;
 }
 
 /* --board is looked for first: the file's settings come before the command line's. */
@@ -347,10 +351,9 @@ void oldwell_settings_read(struct oldwell_settings *settings, int argc, char **a
     const char *operands[2];
     set_defaults(settings, &raw);
     const char *board = find_board(argc, argv);
-    if (board != NULL) {
-        read_board(board);
-    }
+    const char *path = board != NULL ? read_board(board) : NULL;
     size_t count = options_parse(&table, argc, argv, operands);
+    settings->board = path;
     read_operands(settings, operands, count);
     read_look(settings, &raw);
     check_panel(settings);

@@ -43,6 +43,7 @@ struct oldwell_settings {
     bool once;
 
     /* The run. */
+    uint64_t seconds; /* the doctor shows its picture for */
     bool stats;
     bool no_watch;
     uint64_t retry_s; /* of a device that fails; 0: give up at once */

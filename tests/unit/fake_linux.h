@@ -54,6 +54,7 @@ struct fake_linux {
     uint32_t queue[FAKE_BUFFERS]; /* numbers of buffers, in order */
     uint32_t queued;
     uint32_t buffer_count;
+    uint32_t taken;    /* pictures that the camera has made and nobody took */
     uint32_t sequence; /* of the camera's frames: its first byte */
     int kinds[FAKE_FDS];
 };

@@ -23,6 +23,7 @@ $(O)/oldwell: $(call mains,$(linux_src)) $(O)/oldwell.a $(O)/common.a $(O)/core.
 	@echo "  ld $@"
 	$(Q)$(link_program) $(if $(STATIC),-static) $(drm_libs) -lm
 	$(Q)$(finish)
+$(O)/obj/tests/unit/test_linux_drm.o: extra = $(drm_cflags)
 $(O)/obj/boards/linux/%.o $(O)/obj/hal/linux/%.o: extra = $(drm_cflags) \
     -DOLDWELL_DATA_DIR='"$(prefix)/share/oldwell"'
 test_libs += $(drm_libs)

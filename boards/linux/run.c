@@ -186,7 +186,7 @@ bool run_reload(struct run *run)
 static bool is_device_failure(int status)
 {
     return status == OW_GONE || status == OW_BUS || status == OW_TIMEOUT || status == OW_BUSY ||
-           status == OW_DENIED;
+           status == OW_DENIED || status == OW_FULL;
 }
 
 /* What the drivers do not note comes from the viewer: a status alone. */

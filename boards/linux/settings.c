@@ -61,7 +61,7 @@ struct raw {
 static struct option_spec specs[OPTIONS_MOST];
 static struct option_table table;
 
-const char *panel_kind_name(enum panel_kind kind)
+const char *panel_kind_name(int kind)
 {
     return panels[kind];
 }

@@ -56,6 +56,7 @@ struct oldwell_settings {
  */
 void oldwell_settings_read(struct oldwell_settings *settings, int argc, char **argv);
 
-const char *panel_kind_name(enum panel_kind kind);
+/* Of an enum panel_kind. */
+const char *panel_kind_name(int kind);
 
 #endif

@@ -100,7 +100,7 @@ static int fake_open(const char *path, int flags)
     for (size_t i = 0; i < sizeof nodes / sizeof nodes[0]; i++) {
         for (int k = 0; strcmp(path, nodes[i].path) == 0 && k < FAKE_FDS; k++) {
             if (fake.kinds[k] == FAKE_NONE) {
-                fake.kinds[k] = nodes[i].kind;
+                fake.kinds[k] = (int)nodes[i].kind;
                 fake.open_fds++;
                 return FAKE_FIRST_FD + k;
             }

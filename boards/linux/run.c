@@ -110,6 +110,7 @@ static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tr
     const struct oldwell_settings *s = run->settings;
     struct ow_viewer_config config = {
         .tree = tree,
+        .parts = &ow_parts_all,
         .look = s->look,
         .camera = { .projection = OW_PERSPECTIVE,
                     .fov = (ow_turn)llround(s->fov / 360 * 4294967296.0) },
@@ -142,7 +143,7 @@ static int make_viewer(struct run *run, const struct ow_tree *tree,
     uint32_t bytes = ow_viewer_bytes_needed(&config);
     void *memory = bytes == 0 ? NULL : malloc(bytes);
     if (memory == NULL) {
-        return OW_MEMORY;
+        return bytes == 0 ? OW_ARGUMENT : OW_MEMORY;
     }
     int status = ow_viewer_start(&viewer, &config, memory, bytes);
     if (status < 0) {

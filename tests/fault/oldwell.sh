@@ -49,6 +49,7 @@ is_soon() { # NAME COMMAND...
 }
 
 begin() { # ARGUMENT...: in the background, its messages in $dir/log
+    rm -f "$dir/frame"
     "$oldwell" --panel file --device "$dir/frame" --size 64x48 --format rgb565 "$@" \
         2>"$dir/log" </dev/null &
     pid=$!

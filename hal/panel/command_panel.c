@@ -93,6 +93,40 @@ static int check_config(const struct ow_command_panel_config *config)
     return command_can_turn(config, config->rotation);
 }
 
+/* ---- the bus ---- */
+
+int command_wait_bus(struct ow_command_panel *device, uint32_t pending)
+{
+    const struct ow_clock *clock = device->config.clock;
+    uint64_t end_us = 0;
+    for (;;) {
+        uint64_t now_us;
+        int status = ow_bus_done(device->config.bus, pending);
+        if (status != OW_AGAIN) {
+            return status;
+        }
+        status = clock->ops->now(clock->device, &now_us);
+        end_us = end_us == 0 ? now_us + BUS_TIMEOUT_US : end_us;
+        if (status < 0 || now_us >= end_us) {
+            return status < 0 ? status : OW_TIMEOUT;
+        }
+        status = clock->ops->sleep(clock->device, now_us + BUS_NAP_US);
+        if (status < 0) {
+            return status;
+        }
+    }
+}
+
+int command_send(struct ow_command_panel *device, uint8_t code, const uint8_t *parameters,
+                 uint32_t count)
+{
+    const struct ow_bus *bus = device->config.bus;
+    int status = command_wait_bus(device, 0);
+    return status < 0 ? status
+                      : bus->ops->command(bus->device, code, parameters, count,
+                                          device->config.controller->as_commands);
+}
+
 /* ---- start ---- */
 
 static int sleep_us(struct ow_command_panel *device, uint64_t wait_us)
@@ -103,14 +137,6 @@ static int sleep_us(struct ow_command_panel *device, uint64_t wait_us)
     return status < 0 ? status : clock->ops->sleep(clock->device, now_us + wait_us);
 }
 
-static int command(struct ow_command_panel *device, uint8_t code, const uint8_t *parameters,
-                   uint32_t count)
-{
-    const struct ow_bus *bus = device->config.bus;
-    return bus->ops->command(bus->device, code, parameters, count,
-                             device->config.controller->as_commands);
-}
-
 static int run(struct ow_command_panel *device, const struct ow_sequence *sequence)
 {
     int status = OW_OK;
@@ -118,7 +144,7 @@ static int run(struct ow_command_panel *device, const struct ow_sequence *sequen
         const uint8_t *bytes = sequence->bytes + at;
         uint32_t count = bytes[1] & (OW_THEN_WAIT - 1u);
         bool waits = (bytes[1] & OW_THEN_WAIT) != 0;
-        status = command(device, bytes[0], bytes + 2, count);
+        status = command_send(device, bytes[0], bytes + 2, count);
         if (status >= 0 && waits) {
             status = sleep_us(device, bytes[2 + count] * 1000u);
         }
@@ -142,12 +168,12 @@ static int reset(struct ow_command_panel *device)
     if (status != OW_UNSUPPORTED) {
         return status;
     }
-    status = OW_OK;
+    status = sleep_us(device, config->reset_settle_us); /* power may have come just now */
     for (uint32_t i = 0; i < NOPS && controller->as_commands && status >= 0; i++) {
-        status = command(device, controller->nop_code, NULL, 0);
+        status = command_send(device, controller->nop_code, NULL, 0);
     }
     if (status >= 0 && controller->reset_code != 0) {
-        status = command(device, controller->reset_code, NULL, 0);
+        status = command_send(device, controller->reset_code, NULL, 0);
         status = status < 0 ? status : sleep_us(device, controller->reset_wait_ms * 1000u);
     }
     return status;
@@ -161,7 +187,7 @@ static int set_light(struct ow_command_panel *device)
     }
     uint32_t level = ((uint32_t)device->light * controller->light_max + 127) / 255;
     uint8_t parameter = (uint8_t)level;
-    return command(device, controller->light_code, &parameter, 1);
+    return command_send(device, controller->light_code, &parameter, 1);
 }
 
 /* What stands in the configuration and not in the controller's sequence. */
@@ -172,14 +198,14 @@ static int configure(struct ow_command_panel *device)
     int status = OW_OK;
     if (controller->lines_code != 0) {
         uint8_t lines = (uint8_t)(config->height - 1);
-        status = command(device, controller->lines_code, &lines, 1);
+        status = command_send(device, controller->lines_code, &lines, 1);
     }
     if (status >= 0) {
         status = command_send_map(device);
     }
     uint8_t colours = config->inverted ? controller->inverted_code : controller->normal_code;
     if (status >= 0 && colours != 0) {
-        status = command(device, colours, NULL, 0);
+        status = command_send(device, colours, NULL, 0);
     }
     status = status < 0 ? status : set_light(device);
     return status < 0 ? status : run(device, &config->extra);
@@ -233,28 +259,6 @@ static int light_up(struct ow_command_panel *device)
 }
 
 /* ---- what a panel must do ---- */
-
-int command_wait_bus(struct ow_command_panel *device, uint32_t pending)
-{
-    const struct ow_clock *clock = device->config.clock;
-    uint64_t end_us = 0;
-    for (;;) {
-        uint64_t now_us;
-        int status = ow_bus_done(device->config.bus, pending);
-        if (status != OW_AGAIN) {
-            return status;
-        }
-        status = clock->ops->now(clock->device, &now_us);
-        end_us = end_us == 0 ? now_us + BUS_TIMEOUT_US : end_us;
-        if (status < 0 || now_us >= end_us) {
-            return status < 0 ? status : OW_TIMEOUT;
-        }
-        status = clock->ops->sleep(clock->device, now_us + BUS_NAP_US);
-        if (status < 0) {
-            return status;
-        }
-    }
-}
 
 static uint16_t picture_width(const struct ow_command_panel *device)
 {

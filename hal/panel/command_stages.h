@@ -19,6 +19,10 @@ int command_set_window(struct ow_command_panel *device, const struct ow_panel_re
 int command_send_pixels(struct ow_command_panel *device, const struct ow_panel_rect *rect,
                         const uint8_t *pixels, uint32_t stride, uint32_t *calls);
 
+/* command_panel.c: sends a command when no pixels are under way any more. */
+int command_send(struct ow_command_panel *device, uint8_t code, const uint8_t *parameters,
+                 uint32_t count);
+
 /* command_panel.c: waits until at most pending transfers use their bytes. */
 int command_wait_bus(struct ow_command_panel *device, uint32_t pending);
 

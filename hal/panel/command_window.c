@@ -39,7 +39,6 @@ int command_can_turn(const struct ow_command_panel_config *config, uint32_t rota
 int command_send_map(struct ow_command_panel *device)
 {
     const struct ow_command_panel_config *config = &device->config;
-    const struct ow_bus *bus = config->bus;
     bool columns = device->flip_columns != config->mirror_x;
     bool rows = device->flip_rows != config->mirror_y;
     int status = OW_OK;
@@ -50,8 +49,7 @@ int command_send_map(struct ow_command_panel *device)
         uint8_t parameters[2] = { (uint8_t)(map->usual ^ toggled), map->second };
         uint8_t code = (uint8_t)(map->count == 0 ? map->code ^ toggled : map->code);
         if (map->code != 0) {
-            status = bus->ops->command(bus->device, code, parameters, map->count,
-                                       config->controller->as_commands);
+            status = command_send(device, code, parameters, map->count);
         }
     }
     return status;
@@ -67,7 +65,6 @@ static void addresses(uint16_t range[2], uint32_t first, uint32_t count, uint32_
 static int send_range(struct ow_command_panel *device, uint8_t code, const uint16_t range[2])
 {
     const struct ow_controller *controller = device->config.controller;
-    const struct ow_bus *bus = device->config.bus;
     uint8_t bytes[4];
     uint32_t count = 0;
     for (uint32_t i = 0; i < 2; i++) {
@@ -76,7 +73,7 @@ static int send_range(struct ow_command_panel *device, uint8_t code, const uint1
         }
         bytes[count++] = (uint8_t)range[i];
     }
-    return bus->ops->command(bus->device, code, bytes, count, controller->as_commands);
+    return command_send(device, code, bytes, count);
 }
 
 /*
@@ -88,10 +85,12 @@ static bool serves(const uint16_t has[2], const uint16_t wanted[2], bool open)
     return has[0] == wanted[0] && (open ? has[1] >= wanted[1] : has[1] == wanted[1]);
 }
 
-/* Two ranges, and which of them may end anywhere behind its end. */
+/* Two ranges, and where those that may end anywhere behind their end do so. */
 struct window {
     uint16_t columns[2];
     uint16_t rows[2];
+    uint16_t last_column;
+    uint16_t last_row;
     bool columns_open;
     bool rows_open;
 };
@@ -100,43 +99,24 @@ struct window {
 static int send_window(struct ow_command_panel *device, const struct window *window)
 {
     const struct ow_controller *controller = device->config.controller;
-    const struct ow_bus *bus = device->config.bus;
     bool keeps = device->window_known && controller->write_restarts;
     int status = OW_OK;
     device->window_known = false;
     if (!keeps || !serves(device->columns, window->columns, window->columns_open)) {
-        status = send_range(device, controller->column_code, window->columns);
         device->columns[0] = window->columns[0];
-        device->columns[1] = window->columns[1];
+        device->columns[1] = window->columns_open ? window->last_column : window->columns[1];
+        status = send_range(device, controller->column_code, device->columns);
     }
     if (status >= 0 && (!keeps || !serves(device->rows, window->rows, window->rows_open))) {
-        status = send_range(device, controller->row_code, window->rows);
         device->rows[0] = window->rows[0];
-        device->rows[1] = window->rows[1];
+        device->rows[1] = window->rows_open ? window->last_row : window->rows[1];
+        status = send_range(device, controller->row_code, device->rows);
     }
     if (status >= 0 && controller->write_code != 0) {
-        status = bus->ops->command(bus->device, controller->write_code, NULL, 0,
-                                   controller->as_commands);
+        status = command_send(device, controller->write_code, NULL, 0);
     }
     device->window_known = status >= 0;
     return status < 0 ? status : OW_OK;
-}
-
-/*
- * Where the write code goes back to the window's start, lines may end at the
- * glass's edge for all rectangles, and columns for those of one line: so the
- * next rectangle on the same line, or below with the same left side, needs one
- * command less.
- */
-static void open_window(struct window *window, bool one_line, uint32_t last_column,
-                        uint32_t last_row)
-{
-    window->rows_open = true;
-    window->rows[1] = (uint16_t)last_row;
-    if (one_line) {
-        window->columns_open = true;
-        window->columns[1] = (uint16_t)last_column;
-    }
 }
 
 int command_set_window(struct ow_command_panel *device, const struct ow_panel_rect *rect)
@@ -163,11 +143,17 @@ int command_set_window(struct ow_command_panel *device, const struct ow_panel_re
         addresses(window.columns, from_x + rect->y, rect->height, unit_x);
         addresses(window.rows, from_y + rect->x, rect->width, unit_y);
     }
-    if (controller->write_restarts) { /* these have codes_turn: columns are the picture's x */
-        uint32_t last_x = from_x + config->width - 1;
-        uint32_t last_y = from_y + config->height - 1;
-        open_window(&window, rect->height == 1, device->swap ? last_y : last_x,
-                    device->swap ? last_x : last_y);
-    }
+    /*
+     * Where the write code goes back to the window's start, lines may end at the
+     * glass's edge for all rectangles, and columns for those of one line: so the
+     * next rectangle on the same line, or below with the same left side, needs one
+     * command less. (These controllers have codes_turn: columns are the picture's x.)
+     */
+    uint32_t last_x = from_x + config->width - 1;
+    uint32_t last_y = from_y + config->height - 1;
+    window.rows_open = controller->write_restarts;
+    window.columns_open = controller->write_restarts && rect->height == 1;
+    window.last_column = (uint16_t)(device->swap ? last_y : last_x);
+    window.last_row = (uint16_t)(device->swap ? last_x : last_y);
     return send_window(device, &window);
 }

@@ -287,6 +287,11 @@ static void count_nops(struct sim_controller *controller, uint8_t code)
 
 static void begin_command(struct sim_controller *controller, uint8_t code)
 {
+    if (controller->torn && !controller->module.as_commands) { /* D/C says where one begins */
+        controller->torn = false;
+        controller->command = NULL;
+        controller->unit_filled = 0;
+    }
     finish_command(controller);
     check_time(controller, code);
     controller->command = find(controller, code);

@@ -15,18 +15,26 @@ without_drm := hal/linux/drm.c hal/linux/drm_calls.c hal/linux/drm_screen.c \
                boards/linux/output_drm.c
 endif
 
-linux_src  := $(filter-out $(without_drm),$(wildcard hal/linux/*.c boards/linux/*.c))
+# libgpiod has two interfaces; GPIOD=v1, v2 or none says which, by itself the installed one.
+gpiod_pkg := $(if $(pkg_sysroot),PKG_CONFIG_LIBDIR=$(firstword \
+    $(wildcard $(pkg_sysroot)/usr/lib/*/pkgconfig))) $(PKG_CONFIG)
+GPIOD ?= $(shell if $(gpiod_pkg) --atleast-version=2 libgpiod 2>/dev/null; then echo v2; \
+    elif $(gpiod_pkg) --exists libgpiod 2>/dev/null; then echo v1; else echo none; fi)
+gpiod_libs ?= $(if $(filter-out none,$(GPIOD)),-lgpiod)
+without_gpiod := $(filter-out hal/linux/gpiod_$(GPIOD).c,$(wildcard hal/linux/gpiod_*.c))
+
+linux_src  := $(filter-out $(without_drm) $(without_gpiod),$(wildcard hal/linux/*.c boards/linux/*.c))
 viewer_src := $(wildcard firmware/viewer/*.c hal/panel/*.c)
 
 $(O)/oldwell.a: $(call parts,$(linux_src) $(viewer_src))
 $(O)/oldwell: $(call mains,$(linux_src)) $(O)/oldwell.a $(O)/common.a $(O)/core.a
 	@echo "  ld $@"
-	$(Q)$(link_program) $(if $(STATIC),-static) $(drm_libs) -lm
+	$(Q)$(link_program) $(if $(STATIC),-static) $(drm_libs) $(gpiod_libs) -lm
 	$(Q)$(finish)
 $(O)/obj/tests/unit/test_linux_drm.o: extra = $(drm_cflags)
-$(O)/obj/boards/linux/%.o $(O)/obj/hal/linux/%.o: extra = $(drm_cflags) \
+$(O)/obj/boards/linux/%.o $(O)/obj/hal/linux/%.o: extra = $(drm_cflags) $(gpiod_cflags) \
     -DOLDWELL_DATA_DIR='"$(prefix)/share/oldwell"'
-test_libs += $(drm_libs)
+test_libs += $(drm_libs) $(gpiod_libs)
 
 programs: $(O)/oldwell
 

@@ -10,23 +10,13 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "lib"))
 # pylint: disable=wrong-import-position
 from bus import Bus, Mipi
-from check import OUT, run, swapped
+from check import OUT, rows_565, rows_888, run, swapped, to_565
 from guest import Guest
 
 
 def pattern(width, height):
     return [(x * 31 // width) << 11 | (y * 63 // height) << 5 | ((x ^ y) & 31)
             for y in range(height) for x in range(width)]
-
-
-def words(memory, width, height, stride):
-    rows = (memory[y * stride:y * stride + 2 * width] for y in range(height))
-    return [w for row in rows for w in struct.unpack(f"<{width}H", row)]
-
-
-def wide(memory, width, height, stride):
-    rows = (memory[y * stride:y * stride + 4 * width] for y in range(height))
-    return [w & 0xffffff for row in rows for w in struct.unpack(f"<{width}I", row)]
 
 
 def spi(report, guest, bus):
@@ -71,9 +61,9 @@ def fb(report, guest):
         memory = guest.memory(address, stride * height)
         wanted = pattern(width, height)
         if depth == 16:
-            got = words(memory, *size)
+            got = rows_565(memory, *size)
         else:
-            got = [p >> 8 & 0xf800 | p >> 5 & 0x7e0 | p >> 3 & 31 for p in wide(memory, *size)]
+            got = to_565(rows_888(memory, *size))
         report.pictures(f"fb{device}", f"vmtool: fbdev, {depth} bits", [got], [wanted])
 
 

@@ -2,8 +2,10 @@
 """What the tests report: `ok NAME` and `not ok NAME`, and the table of pictures compared."""
 
 import os
+import struct
 import subprocess
 import sys
+import time
 import traceback
 
 O = os.environ.get("O", "build")
@@ -71,9 +73,7 @@ def read_ppms(data):
         width, height = int(fields[1]), int(fields[2])
         head = data.index(b"\n255\n", at) + 5
         at = head + 3 * width * height
-        rgb = data[head:at]
-        yield width, height, [rgb[i] << 16 | rgb[i + 1] << 8 | rgb[i + 2]
-                              for i in range(0, len(rgb), 3)]
+        yield width, height, rgb(data[head:at])
 
 
 def owsim(*arguments):
@@ -91,3 +91,47 @@ def to_565(pixels):
 def swapped(words):
     """16-bit words with their bytes exchanged."""
     return [w >> 8 | (w & 255) << 8 for w in words]
+
+
+def owt():
+    """The tree that is drawn, compiled once."""
+    path = os.path.join(OUT, "oldwell.owt")
+    newer = max(os.path.getmtime(f"{O}/{p}") for p in ("owgen", "owc"))
+    if not os.path.exists(path) or os.path.getmtime(path) < newer:
+        obj = os.path.join(OUT, "oldwell.obj")
+        subprocess.run([f"{O}/owgen", "oldwell", "--detail", "high", "-o", obj], check=True)
+        subprocess.run([f"{O}/owc", obj, "-o", path], check=True, capture_output=True)
+    return path
+
+
+def orbit(views, width, height, *arguments):
+    """owsim's frames of a turn of so many views."""
+    return owsim(owt(), "--orbit", views, "--size", f"{width}x{height}", *arguments)
+
+
+# ---- memory as pixels ---------------------------------------------------------------------------
+def rows_565(memory, width, height, stride):
+    """Rows of little-endian 16-bit pixels, `stride` bytes apart."""
+    rows = (memory[y * stride:y * stride + 2 * width] for y in range(height))
+    return [w for row in rows for w in struct.unpack(f"<{width}H", row)]
+
+
+def rows_888(memory, width, height, stride):
+    """Rows of little-endian 32-bit pixels, the spare byte left out."""
+    rows = (memory[y * stride:y * stride + 4 * width] for y in range(height))
+    return [w & 0xffffff for row in rows for w in struct.unpack(f"<{width}I", row)]
+
+
+def rgb(data):
+    """Bytes red, green, blue as 0xrrggbb."""
+    return [data[i] << 16 | data[i + 1] << 8 | data[i + 2] for i in range(0, len(data), 3)]
+
+
+def soon(look, wanted, seconds=10):
+    """Looks again and again until what is wanted is there; what it saw last."""
+    end = time.monotonic() + seconds
+    while True:
+        seen = look()
+        if seen == wanted or time.monotonic() > end:
+            return seen
+        time.sleep(0.05)

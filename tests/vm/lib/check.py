@@ -93,20 +93,20 @@ def swapped(words):
     return [w >> 8 | (w & 255) << 8 for w in words]
 
 
-def owt():
-    """The tree that is drawn, compiled once."""
-    path = os.path.join(OUT, "oldwell.owt")
+def owt(*model):
+    """A compiled tree, by owgen's arguments: the Old Well if there are none."""
+    model = model or ("oldwell", "--detail", "high")
+    path = os.path.join(OUT, "-".join(w.strip("-") for w in model) + ".owt")
     newer = max(os.path.getmtime(f"{O}/{p}") for p in ("owgen", "owc"))
     if not os.path.exists(path) or os.path.getmtime(path) < newer:
-        obj = os.path.join(OUT, "oldwell.obj")
-        subprocess.run([f"{O}/owgen", "oldwell", "--detail", "high", "-o", obj], check=True)
-        subprocess.run([f"{O}/owc", obj, "-o", path], check=True, capture_output=True)
+        subprocess.run([f"{O}/owgen", *model, "-o", f"{path}.obj"], check=True)
+        subprocess.run([f"{O}/owc", f"{path}.obj", "-o", path], check=True, capture_output=True)
     return path
 
 
-def orbit(views, width, height, *arguments):
+def orbit(views, width, height, *arguments, tree=None):
     """owsim's frames of a turn of so many views."""
-    return owsim(owt(), "--orbit", views, "--size", f"{width}x{height}", *arguments)
+    return owsim(tree or owt(), "--orbit", views, "--size", f"{width}x{height}", *arguments)
 
 
 # ---- memory as pixels ---------------------------------------------------------------------------

@@ -5,15 +5,18 @@
 #include <linux/kd.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "tests/vm/tool/tool.h"
 
 /* As in <drm/drm.h>, which a system without libdrm does not have. */
 #define DRM_SET_MASTER _IO('d', 0x1e)
+#define DRM_DROP_MASTER _IO('d', 0x1f)
 
 int tool_console(int argc, char **argv)
 {
@@ -75,10 +78,33 @@ int tool_fb(int argc, char **argv)
     return 0;
 }
 
+/* A process' own open file of that name, as a file of ours; -1: it has none. */
+static int file_of(int pid, const char *path)
+{
+    char name[64];
+    char target[256];
+    int process = (int)syscall(SYS_pidfd_open, pid, 0);
+    for (int fd = 0; process >= 0 && fd < 64; fd++) {
+        snprintf(name, sizeof name, "/proc/%d/fd/%d", pid, fd);
+        ssize_t length = readlink(name, target, sizeof target - 1);
+        if (length > 0 && (size_t)length == strlen(path) &&
+            memcmp(target, path, (size_t)length) == 0) {
+            return (int)syscall(SYS_pidfd_getfd, process, fd, 0);
+        }
+    }
+    return -1;
+}
+
 int tool_master(int argc, char **argv)
 {
     int fd = open(argv[0], O_RDWR);
-    (void)argc;
+    if (argc > 1) {
+        int theirs = file_of(atoi(argv[1]), argv[0]);
+        if (theirs < 0 || ioctl(theirs, DRM_DROP_MASTER, 0) != 0) {
+            return failed("taking it from the other process");
+        }
+        close(theirs);
+    }
     if (fd < 0 || ioctl(fd, DRM_SET_MASTER, 0) != 0) {
         return failed(argv[0]);
     }

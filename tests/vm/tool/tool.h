@@ -17,7 +17,7 @@ int tool_spi(int argc, char **argv);  /* SPIDEV CHIP DC RESET WIDTH HEIGHT: a pa
 /* screen.c */
 int tool_console(int argc, char **argv); /* prints the console's mode: text or graphics */
 int tool_fb(int argc, char **argv);      /* FBDEV: the same pattern */
-int tool_master(int argc, char **argv);  /* CARD: becomes DRM master and stays it */
+int tool_master(int argc, char **argv);  /* CARD [PID]: is DRM master, if need be instead of PID */
 int tool_size(int argc, char **argv);    /* FBDEV: prints width, height, bits, line length */
 
 /* video.c */

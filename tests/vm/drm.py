@@ -78,7 +78,7 @@ def masters(report, guest, screen):
     report.check("drm: it waits for the screen", soon(screen.moves, True),
                  program.errors())
 
-    other = guest.start(f"vmtool master {CARD} {program.pid}")
+    other = guest.start(f"vmtool master {CARD} {program.child()}")
     other.wait_for("master")
     time.sleep(0.5)
     stands = not screen.moves()

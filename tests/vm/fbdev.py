@@ -75,23 +75,26 @@ def virtio(report, guest):
 
 
 def console(report, guest):
+    """Graphics while it draws, text again whatever ends it: itself or the one that draws."""
     mode = "vmtool console"
-    for signal in ("TERM", "INT", "SEGV", "KILL"):
+    for signal, child in (("TERM", False), ("INT", False), ("SEGV", True), ("KILL", True),
+                          ("KILL", False)):
         program = show(guest, 0, "--device /dev/fb0")
-        soon(lambda: guest.must(mode), "graphics")
-        during = guest.must(mode)
-        program.kill(signal)
-        program.wait()
+        during = soon(lambda: guest.must(mode), "graphics")
+        program.kill(signal, program.child() if child else program.pid)
+        status = program.wait()
         after = soon(lambda: guest.must(mode), "text", 5)
-        report.equal(f"console: hidden, and back after SIG{signal}", (during, after),
-                     ("graphics", "text"))
+        left = soon(lambda: guest.sh("ps | grep -c '[o]ldwell --panel'")[1], "0", 5)
+        report.equal(f"console: SIG{signal} {'to the drawing process' if child else ''}".rstrip(),
+                     (during, after, left, status == 0),
+                     ("graphics", "text", "0", signal in ("TERM", "INT")))
 
 
 def faults(report, guest):
     for name, command, status, words in (
             ("no such device", "oldwell --device /dev/fb9 --once /host/oldwell.owt", 3, "/dev/fb9"),
             ("no permission",
-             "vmtool as 1000 oldwell --device /dev/fb0 --once /host/oldwell.owt", 4, "/dev/fb0"),
+             "vmtool as 1000 oldwell --console none --device /dev/fb0 --once /host/oldwell.owt", 4, "/dev/fb0"),
             ("not a frame buffer", "oldwell --device /dev/null --once /host/oldwell.owt", 5,
              "/dev/null"),
             ("no tree", "oldwell --device /dev/fb0 --once /host/none.owt", 1, "none.owt")):

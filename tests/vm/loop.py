@@ -45,7 +45,8 @@ def processor(report, guest):
     program = guest.start("oldwell --still /host/oldwell.owt")
     soon(lambda: screen(guest) == still(), True)
     time.sleep(0.5)
-    used = f"cat /proc/{program.pid}/task/*/schedstat; cut -d' ' -f1 /proc/uptime"
+    own, child = program.pid, program.child()
+    used = f"cat /proc/{own}/task/*/schedstat /proc/{child}/task/*/schedstat; cut -d' ' -f1 /proc/uptime"
 
     def read():
         lines = guest.must(used).splitlines()
@@ -54,6 +55,7 @@ def processor(report, guest):
     ns0, s0 = read()
     time.sleep(4)
     ns1, s1 = read()
+    report.check("loop: two processes are looked at", own != child and ns0 > 10000000, ns0)
     share = (ns1 - ns0) / 1e9 / (s1 - s0)
     print(f"processor time at rest: {100 * share:.3f} %")
     report.check("loop: at rest under 1 % of the processor", share < 0.01, f"{100 * share:.2f} %")

@@ -225,8 +225,16 @@ class Running:
     def alive(self):
         return self.guest.sh(f"[ ! -s {self.name}.status ]")[0] == 0
 
-    def kill(self, name="TERM"):
-        self.guest.sh(f"kill -{name} {self.pid}")
+    def child(self):
+        """The process that it started; itself, if it started none."""
+        status = self.guest.must("cat /proc/[0-9]*/stat 2>/dev/null; :").splitlines()
+        for name, rest in (line.rsplit(") ", 1) for line in status):
+            if rest.split()[1] == str(self.pid):
+                return int(name.split()[0])
+        return self.pid
+
+    def kill(self, name="TERM", pid=None):
+        self.guest.sh(f"kill -{name} {pid or self.pid}")
 
     def wait(self, seconds=20):
         """Its exit status (128 + n for a signal), once it has ended."""

@@ -9,8 +9,9 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "lib"))
 # pylint: disable=wrong-import-position
-from bus import Bus, Mipi
+from bus import Bus
 from check import OUT, rows_565, rows_888, run, swapped, to_565
+from controllers import Mipi
 from guest import Guest
 
 

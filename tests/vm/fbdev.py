@@ -103,6 +103,28 @@ def faults(report, guest):
                      output.count("\n") == 0, f"status {got}: {output}")
 
 
+def doctor(report, guest):
+    """A pattern with a line all round, and words about what is wrong."""
+    address, width, height, stride = FRAMES_565
+    program = guest.start("oldwell doctor --device /dev/fb0")
+    program.wait_for("ok panel", 20)
+
+    def edge():
+        p = rows_565(guest.memory(address, stride * height), width, height, stride)
+        return set(p[:width] + p[-width:] + p[::width] + p[width - 1::width])
+
+    report.equal("doctor: a white line all round", soon(edge, {0xffff}), {0xffff})
+    program.kill()
+    program.wait()
+    said = program.output() + program.errors()
+    report.check("doctor: the panel is right", f"{width}x{height}" in said and
+                 "not ok" not in said, said)
+    for name, command, status in (("no device", "oldwell doctor --device /dev/fb9", 3),
+                                  ("no permission", "vmtool as 1000 oldwell doctor", 4)):
+        got, said = guest.sh(f"{command} --console none 2>&1")
+        report.check(f"doctor: {name}", got == status and "not ok" in said, f"status {got}: {said}")
+
+
 def body(report):
     tree = owt()
     with Guest("fbdev", ["virtio-gpu"], "drm_kms_helper.drm_fbdev_overalloc=200",
@@ -113,6 +135,7 @@ def body(report):
         virtio(report, guest)
         console(report, guest)
         faults(report, guest)
+        doctor(report, guest)
 
 
 run("fbdev", body)

@@ -83,6 +83,8 @@ class Bus:
 
     def close(self):
         """Ends the analyser, once QEMU is gone."""
-        os.close(self.pipe)
-        self.process.terminate()
-        self.process.wait()
+        os.close(self.pipe)            # the last writer: the analyser comes to the end
+        try:
+            self.process.wait(20)
+        except subprocess.TimeoutExpired:
+            self.process.kill()

@@ -127,7 +127,7 @@ def rgb(data):
     return [data[i] << 16 | data[i + 1] << 8 | data[i + 2] for i in range(0, len(data), 3)]
 
 
-def soon(look, wanted, seconds=10):
+def soon(look, wanted, seconds=30):
     """Looks again and again until what is wanted is there; what it saw last."""
     end = time.monotonic() + seconds
     while True:

@@ -45,7 +45,3 @@ linux-arm64: ## oldwell for arm64 boards, without shared libraries: build/linux-
 	@+$(MAKE) --no-print-directory O=build/linux-arm64 STATIC=1 \
 	    CC='aarch64-linux-gnu-gcc --sysroot=$(CURDIR)/build/arm64-root' \
 	    build/linux-arm64/oldwell
-
-.PHONY: vm-check
-vm-check:
-	@echo "make: $@ is not there yet" >&2; exit 2

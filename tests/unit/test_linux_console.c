@@ -127,7 +127,7 @@ static pid_t start(int (*work)(void *context))
     if (guardian == 0) {
         struct linux_console console;
         int number;
-        if (linux_console_take(&console, &system_calls, "auto") != OW_OK) {
+        if (linux_console_open(&console, &system_calls, "auto") != OW_OK) {
             _exit(99);
         }
         shared->status = guardian_run(&console, work, NULL, &number);
@@ -212,24 +212,43 @@ static void a_killed_guardian(void **state)
     assert_true(soon(text_is_back));
 }
 
+static void an_open_console_is_as_it_was(void **state)
+{
+    struct linux_console console;
+    (void)state;
+    fake_reset();
+    assert_int_equal(linux_console_open(&console, &fake_linux, "/dev/tty0"), OW_OK);
+    assert_int_equal(fake.console_mode, KD_TEXT);
+    assert_int_equal(linux_console_take(&console), OW_OK);
+    assert_int_equal(fake.console_mode, KD_GRAPHICS);
+    linux_console_give_back(&console);
+    assert_int_equal(fake.console_mode, KD_TEXT);
+}
+
 /* ---- taking ---- */
+
+static int open_and_take(struct linux_console *console, const char *path)
+{
+    int status = linux_console_open(console, &fake_linux, path);
+    return status == OW_OK && console->fd >= 0 ? linux_console_take(console) : status;
+}
 
 static void without_a_console_there_is_nothing_to_do(void **state)
 {
     struct linux_console console;
     (void)state;
     fake_reset();
-    assert_int_equal(linux_console_take(&console, &fake_linux, "none"), OW_OK);
+    assert_int_equal(open_and_take(&console, "none"), OW_OK);
     assert_int_equal(console.fd, -1);
-    assert_int_equal(linux_console_take(&console, &fake_linux, "/dev/null"), OW_UNSUPPORTED);
-    assert_int_equal(linux_console_take(&console, &fake_linux, "/dev/tty99"), OW_GONE);
+    assert_int_equal(open_and_take(&console, "/dev/null"), OW_UNSUPPORTED);
+    assert_int_equal(open_and_take(&console, "/dev/tty99"), OW_GONE);
     for (uint32_t n = 1; n <= 3; n++) {
         static const int numbers[] = { ENOENT, ENOTTY, EPERM };
         for (size_t e = 0; e < 3; e++) {
             fake_reset();
             fake.fail_at = n;
             fake.fail_errno = numbers[e];
-            int status = linux_console_take(&console, &fake_linux, "/dev/tty0");
+            int status = open_and_take(&console, "/dev/tty0");
             assert_int_equal(status, linux_status_of(numbers[e]));
             assert_int_equal(console.fd, -1);
             assert_int_equal(fake.open_fds, 0);
@@ -255,6 +274,7 @@ int main(void)
         cmocka_unit_test(orders_go_on_to_the_child),
         cmocka_unit_test(a_killed_child),
         cmocka_unit_test(a_killed_guardian),
+        cmocka_unit_test(an_open_console_is_as_it_was),
         cmocka_unit_test(without_a_console_there_is_nothing_to_do),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);

@@ -28,6 +28,8 @@ int run_exit_status(int status)
         return FAIL_ABSENT;
     case OW_DENIED:
         return FAIL_DENIED;
+    case OW_ARGUMENT:
+        return FAIL_USAGE;
     case OW_TIMEOUT:
         return FAIL_TIMEOUT;
     default:
@@ -75,7 +77,8 @@ static int open_display(struct run *run, uint64_t for_s)
             return linux_wait_add(&run->waiting, run->output.fd, run->output.ready, &run->output);
         }
         uint64_t now = now_us(run);
-        if (status == OW_UNSUPPORTED || status == OW_MEMORY || now >= end_us) {
+        if (status == OW_UNSUPPORTED || status == OW_ARGUMENT || status == OW_MEMORY ||
+            now >= end_us) {
             return status;
         }
         pause_until(run, now + pause_us < end_us ? now + pause_us : end_us);

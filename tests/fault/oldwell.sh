@@ -185,6 +185,12 @@ refused "a tree from standard input" 2 "cannot be '-'" -
 refused "no turn of 45 degrees" 2 'rotate takes' --rotate 45 "$dir/well.owt"
 refused "no depth of 24" 2 'depth takes' --depth 24 "$dir/well.owt"
 refused "a first view that there is not" 2 'first counts' --orbit 4 --first 4 "$dir/well.owt"
+refused "no D/C line" 2 '--dc gpiochip0:25' --panel ili9341 "$dir/well.owt"
+refused "no address" 2 'i2c-address takes' --panel ssd1306 --bus i2c --i2c-address 99 "$dir/well.owt"
+refused "no offset" 2 'offset takes' --panel st7735 --dc 1 --offset 2 "$dir/well.owt"
+refused "no such GPIO chip" 3 'none:25: there is no such chip' --panel ili9341 --dc none:25 \
+    "$dir/well.owt"
+refused "no I2C bus" 3 '/none/i2c: open: ' --panel ssd1306 --bus i2c --device /none/i2c "$dir/well.owt"
 refused "no light" 2 'zero vector' --light 0,0,0 "$dir/well.owt"
 refused "a missing tree" 1 "none.owt: cannot read" --panel file --device "$dir/frame" "$dir/none.owt"
 refused "no tree but a model" 1 "compile the model with owc" --panel file --device "$dir/frame" \

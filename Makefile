@@ -106,7 +106,7 @@ $(O)/%.a:
 	@$(AR) rcs $@ $(filter %.o,$^)
 
 # ---- tests --------------------------------------------------------------------------------------
-archives := $(foreach a,helpers oracle owc owgen owsim common core,$(O)/$(a).a)
+archives := $(foreach a,helpers oracle owc owgen owsim oldwell common core,$(O)/$(a).a)
 
 tests: $(tests) $(if $(oracle_src),$(O)/tests/oracle)
 replay: $(fuzzers:%=$(O)/tests/replay_%)

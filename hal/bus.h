@@ -27,8 +27,8 @@ struct ow_bus_ops {
     /*
      * Sends a command code and count parameters (0 .. 255; parameters may be
      * NULL with 0), in one transaction. as_commands: the parameters go with D/C
-     * as the code's, as SSD1306-like controllers want. Returns when they are
-     * sent. Mandatory.
+     * as the code's, as SSD1306-like controllers want. Called when no pixels are
+     * under way; returns when all is sent. Mandatory.
      */
     int (*command)(void *device, uint8_t code, const uint8_t *parameters, uint32_t count,
                    bool as_commands);

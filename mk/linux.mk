@@ -1,5 +1,47 @@
 # SPDX-License-Identifier: 0BSD
 # Linux boards: the program oldwell and its tests in a guest.
-.PHONY: vm-check
-vm-check:
-	@echo "make: $@ is not there yet" >&2; exit 2
+# STATIC=1 links it without shared libraries, as a guest's or a rescue system's root wants it.
+# DRM=no leaves out displays by libdrm; by itself it is left out where libdrm is missing.
+
+ifneq ($(STATIC),)
+pkg_sysroot = $(patsubst --sysroot=%,%,$(filter --sysroot=%,$(CC)))
+endif
+DRM ?= $(if $(pkg_sysroot)$(shell $(PKG_CONFIG) --exists libdrm 2>/dev/null && echo yes),yes,no)
+ifeq ($(DRM),yes)
+drm_cflags := -DOLDWELL_DRM -isystem $(pkg_sysroot)/usr/include/libdrm
+drm_libs   := $(if $(pkg_sysroot),-ldrm -lm,$(call pkg,--libs,libdrm))
+else
+without_drm := hal/linux/drm.c hal/linux/drm_calls.c hal/linux/drm_screen.c \
+               boards/linux/output_drm.c
+endif
+
+# libgpiod has two interfaces; GPIOD=v1, v2 or none says which, by itself the installed one.
+gpiod_pkg := $(if $(pkg_sysroot),PKG_CONFIG_LIBDIR=$(firstword \
+    $(wildcard $(pkg_sysroot)/usr/lib/*/pkgconfig))) $(PKG_CONFIG)
+GPIOD ?= $(shell if $(gpiod_pkg) --atleast-version=2 libgpiod 2>/dev/null; then echo v2; \
+    elif $(gpiod_pkg) --exists libgpiod 2>/dev/null; then echo v1; else echo none; fi)
+gpiod_libs ?= $(if $(filter-out none,$(GPIOD)),-lgpiod)
+without_gpiod := $(filter-out hal/linux/gpiod_$(GPIOD).c,$(wildcard hal/linux/gpiod_*.c))
+
+linux_src  := $(filter-out $(without_drm) $(without_gpiod),$(wildcard hal/linux/*.c boards/linux/*.c))
+viewer_src := $(wildcard firmware/viewer/*.c hal/panel/*.c)
+
+$(O)/oldwell.a: $(call parts,$(linux_src) $(viewer_src))
+$(O)/oldwell: $(call mains,$(linux_src)) $(O)/oldwell.a $(O)/common.a $(O)/core.a
+	@echo "  ld $@"
+	$(Q)$(link_program) $(if $(STATIC),-static) $(drm_libs) $(gpiod_libs) -lm
+	$(Q)$(finish)
+$(O)/obj/tests/unit/test_linux_drm.o: extra = $(drm_cflags)
+$(O)/obj/boards/linux/%.o $(O)/obj/hal/linux/%.o: extra = $(drm_cflags) $(gpiod_cflags) \
+    -DOLDWELL_DATA_DIR='"$(prefix)/share/oldwell"'
+test_libs += $(drm_libs) $(gpiod_libs)
+
+programs: $(O)/oldwell
+
+.PHONY: linux-arm64
+linux-arm64: ## oldwell for arm64 boards, without shared libraries: build/linux-arm64/oldwell
+	@scripts/setup cross
+	@scripts/arm64-root
+	@+$(MAKE) --no-print-directory O=build/linux-arm64 STATIC=1 \
+	    CC='aarch64-linux-gnu-gcc --sysroot=$(CURDIR)/build/arm64-root' \
+	    build/linux-arm64/oldwell

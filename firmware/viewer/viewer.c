@@ -195,6 +195,25 @@ void ow_viewer_restart(struct ow_viewer *viewer)
     viewer->changed = true;
 }
 
+void ow_viewer_get_place(const struct ow_viewer *viewer, struct ow_viewer_place *place)
+{
+    place->number = viewer->number;
+    place->turn = viewer->turn;
+    place->tilt = viewer->tilt;
+    place->zoom = viewer->zoom;
+    place->manual = viewer->manual;
+}
+
+void ow_viewer_set_place(struct ow_viewer *viewer, const struct ow_viewer_place *place)
+{
+    viewer->number = place->number < viewer->config.views ? place->number : 0;
+    viewer->turn = place->turn;
+    viewer->tilt = place->tilt;
+    viewer->zoom = place->zoom;
+    viewer->manual = place->manual;
+    viewer->changed = true;
+}
+
 void ow_viewer_refresh(struct ow_viewer *viewer)
 {
     viewer->changed = true;

@@ -111,6 +111,7 @@ struct ow_viewer {
     enum ow_status
         drawn; /* of the last frame: OW_OK, OW_CAPACITY or OW_BUDGET (something was left out) */
     struct ow_view view;   /* of the last frame, turned as the panel needs it */
+    uint8_t turned;        /* quarter turns that the panel leaves to the projection */
     struct ow_stats stats; /* of the last frame */
 
     struct ow_look look; /* the configured one, its light turned with the picture */
@@ -122,9 +123,8 @@ struct ow_viewer {
     uint8_t *band[2];
     uint32_t band_stride; /* bytes */
     uint16_t band_lines;
-    uint8_t turned; /* quarter turns left to the projection */
-    bool changed;   /* the panel does not show the present view yet */
-    bool manual;    /* input has moved the eye: no more turning by itself */
+    bool changed; /* the panel does not show the present view yet */
+    bool manual;  /* input has moved the eye: no more turning by itself */
     bool input_gone;
     ow_turn turn; /* by input, on top of the view's own */
     int32_t tilt;
@@ -159,6 +159,20 @@ int ow_viewer_step(struct ow_viewer *viewer);
 
 /* From the first view again. */
 void ow_viewer_restart(struct ow_viewer *viewer);
+
+/* Where the eye has got to: what a viewer that takes another's place goes on with. */
+struct ow_viewer_place {
+    uint32_t number; /* of the view */
+    ow_turn turn;    /* by input, on top of it */
+    int32_t tilt;
+    int32_t zoom;
+    bool manual; /* it does not turn by itself: input has moved the eye */
+};
+
+void ow_viewer_get_place(const struct ow_viewer *viewer, struct ow_viewer_place *place);
+
+/* To be drawn next. A number of more views than there are begins with the first. */
+void ow_viewer_set_place(struct ow_viewer *viewer, const struct ow_viewer_place *place);
 
 /* The present view must be drawn again: the tree behind it was changed, the panel came back. */
 void ow_viewer_refresh(struct ow_viewer *viewer);

@@ -17,6 +17,10 @@
 
 enum { HELP_COLUMN = 28, SIZE_LIMIT = 65535 };
 
+/* Where options_take reads; NULL: the command line. */
+static const char *place_file;
+static long place_line;
+
 static void print_usage(const struct option_table *table, FILE *stream)
 {
     const char *line = table->usage;
@@ -36,6 +40,9 @@ void options_wrong(const struct option_table *table, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    if (place_file != NULL) {
+        fail(FAIL_INPUT, place_file, place_line, "%s", text);
+    }
     outfile_discard_all();
     warn_line(NULL, 0, "%s", text);
     print_usage(table, stderr);
@@ -352,6 +359,25 @@ static int take_option(const struct option_table *table, int argc, char **argv, 
     }
     take_value(table, spec, value);
     return at + 1;
+}
+
+void options_take(const struct option_table *table, const char *file, long line, const char *name,
+                  const char *value)
+{
+    place_file = file;
+    place_line = line;
+    const struct option_spec *spec = find_long(table, name, strlen(name));
+    if (spec == NULL) {
+        options_wrong(table, "there is no setting '%s'", name);
+    }
+    if (spec->kind != OPTION_FLAG) {
+        take_value(table, spec, value);
+    } else if (strcmp(value, "yes") == 0 || strcmp(value, "no") == 0) {
+        *(bool *)spec->value = value[0] == 'y';
+    } else {
+        options_wrong(table, "%s takes yes or no, not '%s'", name, value);
+    }
+    place_file = NULL;
 }
 
 size_t options_parse(const struct option_table *table, int argc, char **argv, const char **operands)

@@ -81,6 +81,14 @@ struct option_table {
 size_t options_parse(const struct option_table *table, int argc, char **argv,
                      const char **operands);
 
+/*
+ * Takes one setting of a file as the option of that name would, a flag with yes or no. Ends the
+ * program with status 1 and a line that names the place if there is no such option or the value
+ * is wrong. value is kept.
+ */
+void options_take(const struct option_table *table, const char *file, long line, const char *name,
+                  const char *value);
+
 /* Wrong usage that only the program can see: the line, the usage, exit status 2. */
 _Noreturn void options_wrong(const struct option_table *table, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -10,6 +10,36 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* A rectangle of pixels: from left, top to before right, bottom. */
+struct ow_change {
+    uint16_t left;
+    uint16_t top;
+    uint16_t right;
+    uint16_t bottom;
+};
+
+/*
+ * Capacities. A line has as many runs of its own as its width over 4, within
+ * these bounds: further ones are joined to the last. The list has room for two
+ * rectangles for each line of the frame: when it is full, its last one holds
+ * whatever has changed below.
+ */
+enum { OW_CHANGES_RUNS_MIN = 8, OW_CHANGES_RUNS_MAX = 64, OW_CHANGES_LISTED_PER_LINE = 2 };
+
+/*
+ * A run of a line, and the cheapest way to have covered the line's runs before
+ * it: from run `from` on by one rectangle. Private.
+ */
+struct ow_changes_step {
+    uint32_t cost;  /* bits */
+    uint16_t first; /* the run's pixels */
+    uint16_t end;
+    uint16_t from;
+    uint16_t grows; /* the place of the open rectangle that grows, and 1; 0: a new one */
+    uint16_t used;  /* open rectangles that are used or passed */
+    uint16_t padding;
+};
+
 /* Filled by ow_changes_place; a bit for each pixel. */
 struct ow_changes {
     uint32_t *bits;
@@ -17,6 +47,13 @@ struct ow_changes {
     uint16_t width;
     uint16_t height;
     bool known; /* the buffer's content is what it was drawn to last; false: all has changed */
+    struct ow_change *list; /* the rest is for ow_changes_list */
+    uint32_t listed;
+    uint32_t listed_max;
+    struct ow_changes_step *steps;
+    uint16_t *open; /* numbers of the rectangles that end at the line above */
+    uint32_t opened;
+    uint32_t runs_max;
 };
 
 /* Bytes of memory (aligned to 4) for a frame of this size, 1 .. OW_SCREEN_MAX each. */
@@ -29,27 +66,21 @@ void ow_changes_begin(struct ow_changes *changes, bool known);
 /* Marks pixels first .. end-1 of a line. */
 void ow_changes_mark(struct ow_changes *changes, uint32_t line, uint32_t first, uint32_t end);
 
-/* A rectangle of pixels: from left, top to before right, bottom. */
-struct ow_change {
-    uint16_t left;
-    uint16_t top;
-    uint16_t right;
-    uint16_t bottom;
-};
-
-/* Where the next rectangle is looked for; all 0 to begin with. */
-struct ow_changes_cursor {
-    uint32_t line;
-    uint32_t x;
+/* What rectangles cost where they are sent to. */
+struct ow_change_costs {
+    uint32_t rect_bits;  /* of one, beside its pixels */
+    uint32_t pixel_bits; /* of a pixel, >= 1 */
+    uint16_t align_x;    /* rectangles begin and end at multiples of these, in pixels, or at */
+    uint16_t align_y;    /* the frame's edge; >= 1 */
 };
 
 /*
- * The next rectangle that holds changed pixels, from the top; all of them
- * together hold every one. Runs are joined, along a line and down the lines, as
- * long as sending the unchanged pixels between them costs no more than another
- * rectangle would: price is that, in pixels. False: there are no more.
+ * Rectangles that hold every changed pixel, from the top and from the left;
+ * returns how many, they are in changes->list. Runs are joined along a line and
+ * down the lines, each line's as the whole line costs least; rectangles may
+ * overlap where that costs less. The marks are spent; a frame that begins makes
+ * new ones.
  */
-bool ow_changes_next(const struct ow_changes *changes, struct ow_changes_cursor *cursor,
-                     uint32_t price, struct ow_change *change);
+uint32_t ow_changes_list(struct ow_changes *changes, const struct ow_change_costs *costs);
 
 #endif

@@ -3,8 +3,7 @@
 #include "stages.h"
 
 enum {
-    SLICES = 2,    /* for each worker */
-    RECTS_MAX = 32 /* changed rectangles told to a panel; more: the whole frame */
+    SLICES = 2 /* for each worker */
 };
 
 static void probe(const struct ow_viewer *viewer, enum ow_probe point)
@@ -191,40 +190,31 @@ static int draw_to_bands(struct ow_viewer *viewer)
     return wait_done(viewer, 0);
 }
 
-static uint16_t round_down(uint32_t value, uint32_t step)
-{
-    return (uint16_t)(value / step * step);
-}
-
-static uint16_t round_up(uint32_t value, uint32_t step, uint32_t end)
-{
-    uint32_t rounded = (value + step - 1) / step * step;
-    return (uint16_t)(rounded < end ? rounded : end);
-}
-
-/* Fills rects with what changed, outwards to the panel's alignment; all of it, if there is more. */
-static uint32_t list_changes(const struct ow_viewer *viewer, struct ow_panel_rect *rects)
+/* What changed as the panel wants it, in the memory of the list; *count: how many. */
+static const struct ow_panel_rect *list_changes(struct ow_viewer *viewer, uint32_t *count)
 {
     const struct ow_panel_info *panel = &viewer->panel;
-    uint32_t price = panel->rect_bytes * 8 / panel->format->bits;
-    struct ow_changes_cursor cursor = { 0, 0 };
-    struct ow_change change;
-    uint32_t count = 0;
-    while (ow_changes_next(&viewer->changes, &cursor, price, &change)) {
-        if (count == RECTS_MAX) {
-            rects[0] = (struct ow_panel_rect){ 0, 0, panel->width, panel->height };
-            return 1;
-        }
-        struct ow_panel_rect *rect = &rects[count++];
-        rect->x = round_down(change.left, panel->align_x);
-        rect->y = round_down(change.top, panel->align_y);
-        rect->width = (uint16_t)(round_up(change.right, panel->align_x, panel->width) - rect->x);
-        rect->height = (uint16_t)(round_up(change.bottom, panel->align_y, panel->height) - rect->y);
+    const struct ow_change_costs costs = {
+        .rect_bits = panel->rect_bytes * 8,
+        .pixel_bits = panel->format->bits,
+        .align_x = panel->align_x,
+        .align_y = panel->align_y,
+    };
+    struct ow_change *list = viewer->changes.list;
+    struct ow_panel_rect *rects = (struct ow_panel_rect *)(void *)list;
+    _Static_assert(sizeof *rects == sizeof *list, "one takes the place of the other");
+    *count = ow_changes_list(&viewer->changes, &costs);
+    for (uint32_t i = 0; i < *count; i++) {
+        struct ow_change change = list[i];
+        rects[i] =
+            (struct ow_panel_rect){ change.left, change.top, (uint16_t)(change.right - change.left),
+                                    (uint16_t)(change.bottom - change.top) };
     }
-    if (count == 0) { /* a frame was asked for: show that nothing changed by its first corner */
-        rects[count++] = (struct ow_panel_rect){ 0, 0, panel->align_x, panel->align_y };
+    if (*count == 0) { /* a frame was asked for: show that nothing changed by its first corner */
+        rects[0] = (struct ow_panel_rect){ 0, 0, panel->align_x, panel->align_y };
+        *count = 1;
     }
-    return count;
+    return rects;
 }
 
 static int draw_to_lent(struct ow_viewer *viewer)
@@ -246,9 +236,11 @@ static int draw_to_lent(struct ow_viewer *viewer)
         uint8_t *pixels = buffer.pixels + (uint32_t)first * buffer.stride;
         status = draw_lines(viewer, pixels, buffer.stride, first, count, changes);
     }
-    struct ow_panel_rect rects[RECTS_MAX] = { { 0, 0, viewer->panel.width, viewer->panel.height } };
-    uint32_t rect_count = changes != NULL ? list_changes(viewer, rects) : 1;
-    int shown = panel->ops->show(panel->device, rects, status < 0 ? 0 : rect_count);
+    const struct ow_panel_rect whole = { 0, 0, viewer->panel.width, viewer->panel.height };
+    uint32_t count_changed = 1;
+    const struct ow_panel_rect *changed =
+        changes != NULL ? list_changes(viewer, &count_changed) : &whole;
+    int shown = panel->ops->show(panel->device, changed, status < 0 ? 0 : count_changed);
     return status < 0 ? status : shown;
 }
 

@@ -275,7 +275,10 @@ static int panel_info(void *context, struct ow_panel_info *info)
     const struct ow_command_panel *device = context;
     const struct ow_command_panel_config *config = &device->config;
     const struct ow_controller *controller = config->controller;
-    uint32_t commands = controller->write_code != 0 ? 3 : 2;
+    /* Where a window may stay, a further rectangle on a line needs one range. */
+    uint32_t ranges = controller->write_restarts ? 1 : 2;
+    uint32_t write = controller->write_code != 0 ? 1 : 0;
+    uint32_t transfers = ranges * (controller->as_commands ? 1 : 2) + write + 1;
     uint32_t pages = controller->row_lines;
     *info = (struct ow_panel_info){
         .width = picture_width(device),
@@ -283,8 +286,8 @@ static int panel_info(void *context, struct ow_panel_info *info)
         .format = config->format,
         .align_x = (uint16_t)unit_x(config),
         .align_y = (uint16_t)(device->swap ? 1 : pages),
-        .rect_bytes = commands + 4u * controller->address_bytes +
-                      (commands + 1) * device->limits.transfer_bytes,
+        .rect_bytes = ranges * (1 + 2u * controller->address_bytes) + write +
+                      transfers * device->limits.transfer_bytes,
         .buffers = config->frame != NULL,
     };
     return OW_OK;

@@ -1,11 +1,97 @@
 # SPDX-License-Identifier: 0BSD
-# Boards with a microcontroller, and what they take.
-.PHONY: size run image flash
-size run image flash:
-	@echo "make: $@ is not there yet" >&2; exit 2
+# Boards without an operating system: make BOARD=NAME [run] [TREE=FILE.owt].
+# The board's folder has main.c, tree.S and board.ld; here is what else it is made of.
+bare_boards := lm3s6965evb
+
+# The core is compiled like this for `make size` and for every chip: small, no LTO.
+bare_flags = -std=c11 -ffreestanding -Os -g $(warnings) -ffunction-sections -fdata-sections \
+             -fno-common -I. -Ifirmware/core
+bare_link  = -nostdlib -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--no-warn-rwx-segments -lgcc
+
+lm3s6965evb_tools := arm-none-eabi-
+lm3s6965evb_cpu   := -mcpu=cortex-m3 -mthumb
+lm3s6965evb_hal   := $(wildcard hal/lm3s6965/*.c)
+lm3s6965evb_qemu  := qemu-system-arm -M lm3s6965evb
+
+# The built-in tree: the Old Well, or TREE.
+TREE ?= $(O)/chip/oldwell.owt
+$(O)/chip/oldwell.obj: $(O)/owgen
+	@mkdir -p $(@D)
+	$(Q)$(O)/owgen oldwell --detail high -o $@
+$(O)/chip/oldwell.owt: $(O)/chip/oldwell.obj $(O)/owc
+	$(Q)$(O)/owc $< -o $@ 2>$(@:.owt=.log)
+# One with normals, small enough for a chip to receive.
+$(O)/chip/smooth.owt: $(O)/owgen $(O)/owc
+	@mkdir -p $(@D)
+	$(Q)$(O)/owgen oldwell --detail low -o $(@:.owt=.obj)
+	$(Q)$(O)/owc $(@:.owt=.obj) --normals compute -o $@ 2>$(@:.owt=.log)
+
+device_src := $(wildcard firmware/core/*.c firmware/viewer/*.c firmware/device/*.c hal/panel/*.c) \
+              hal/bare/memory.c
+
+# bare_program BOARD PROGRAM SOURCES: PROGRAM.elf of these sources.
+define bare_program
+$(O)/$(2).elf: $(patsubst %,$(O)/$(1)/%.o,$(basename $(3))) boards/$(1)/board.ld
+	@echo "  ld $$@"
+	$(Q)$($(1)_tools)gcc $($(1)_cpu) -o $$@ $$(filter %.o,$$^) -T boards/$(1)/board.ld \
+	    $(bare_link) -Wl,-Map=$$(@:.elf=.map)
+endef
+
+define bare_board
+.PHONY: board-$(1)
+board-$(1): $(O)/oldwell-$(1).elf $(O)/oldwell-$(1).bin
+$(call bare_program,$(1),oldwell-$(1),$(device_src) $($(1)_hal) boards/$(1)/main.c boards/$(1)/tree.S)
+$(call bare_program,$(1),scenes-$(1),$(device_src) $($(1)_hal) tests/chip/scenes.c \
+    tests/chip/main_$(1).c tests/chip/trees.S)
+$(O)/oldwell-$(1).bin: $(O)/oldwell-$(1).elf
+	$(Q)$($(1)_tools)objcopy -O binary $$< $$@
+$(O)/$(1)/flags: FORCE
+	@mkdir -p $$(@D)
+	@echo '$($(1)_cpu) $(bare_flags) $(TREE)' | cmp -s - $$@ || \
+	    echo '$($(1)_cpu) $(bare_flags) $(TREE)' >$$@
+$(O)/$(1)/%.o: %.c $(O)/$(1)/flags
+	@mkdir -p $$(@D)
+	@echo "  cc $$< ($(1))"
+	$(Q)$($(1)_tools)gcc $($(1)_cpu) $(bare_flags) -fstack-usage -MMD -MP -c -o $$@ $$<
+$(O)/$(1)/%.o: %.S $(O)/$(1)/flags
+	@mkdir -p $$(@D)
+	@echo "  as $$< ($(1))"
+	$(Q)$($(1)_tools)gcc $($(1)_cpu) -g -DTREE='"$(TREE)"' -DFLAT_TREE='"$(O)/chip/oldwell.owt"' \
+	    -DSMOOTH_TREE='"$(O)/chip/smooth.owt"' -c -o $$@ $$<
+$(O)/$(1)/boards/$(1)/tree.o: $(TREE)
+$(O)/$(1)/tests/chip/trees.o: $(O)/chip/oldwell.owt $(O)/chip/smooth.owt
+endef
+$(foreach b,$(bare_boards),$(eval $(call bare_board,$(b))))
+-include $(shell find $(foreach b,$(bare_boards),$(O)/$(b)) -name '*.d' 2>/dev/null)
+
+.PHONY: board run image flash size
+ifneq ($(filter $(BOARD),$(bare_boards)),)
+all: board
+board: board-$(BOARD)
+run: board
+	$($(BOARD)_qemu) -kernel $(O)/oldwell-$(BOARD).elf -serial mon:stdio
+image: board
+flash:
+	@echo "make: no programmer is known for $(BOARD); write $(O)/oldwell-$(BOARD).bin to" \
+	    "address 0 of its flash with yours" >&2; exit 2
+else
 ifneq ($(BOARD),sim)
 all programs: no-board
 .PHONY: no-board
 no-board:
-	@echo "make: BOARD=$(BOARD) is not there yet; there is BOARD=sim" >&2; exit 2
+	@echo "make: there is no BOARD=$(BOARD); there are sim $(bare_boards)" >&2; exit 2
 endif
+run image flash:
+	@echo "make: $@ wants a board: make BOARD=NAME $@, of $(bare_boards)" >&2; exit 2
+endif
+
+# What the tests of the boards use on the host.
+.PHONY: chip-tools
+chip-tools: $(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes $(O)/chip/smooth.owt
+$(O)/tests/panel_dump: $(O)/obj/tests/chip/panel_dump.o
+$(O)/tests/read_message: $(O)/obj/tests/chip/read_message.o $(O)/obj/firmware/device/font.o
+$(O)/tests/scenes: $(call obj,tests/chip/scenes.c tests/chip/main_host.c) $(O)/owsim.a $(O)/core.a
+$(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes:
+	@mkdir -p $(@D)
+	@echo "  ld $@"
+	$(Q)$(link_program)

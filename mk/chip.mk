@@ -27,7 +27,7 @@ $(O)/chip/smooth.owt: $(O)/owgen $(O)/owc
 	$(Q)$(O)/owc $(@:.owt=.obj) --normals compute -o $@ 2>$(@:.owt=.log)
 
 device_src := $(wildcard firmware/core/*.c firmware/viewer/*.c firmware/device/*.c hal/panel/*.c) \
-              hal/bare/memory.c
+              $(wildcard hal/bare/*.c)
 
 # bare_program BOARD PROGRAM SOURCES: PROGRAM.elf of these sources.
 define bare_program

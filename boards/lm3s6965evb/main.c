@@ -31,8 +31,8 @@ static struct ow_device device;
 
 static const struct ow_clock clock = { &chip_clock_ops, NULL };
 static const struct ow_wait wait = { &chip_wait_ops, NULL };
-static const struct ow_stream stream = { &chip_uart_ops, NULL };
-static const struct ow_board board = { &chip_board_ops, NULL };
+static const struct ow_stream stream = { &pl011_stream_ops, &chip_uart };
+static const struct ow_board board = { &chip_board_ops, &chip_uart };
 static const struct ow_input input = { &chip_buttons_ops, NULL };
 static const struct ow_bus bus = { &chip_ssi_ops, NULL };
 

@@ -1,17 +1,9 @@
 /* SPDX-License-Identifier: 0BSD */
-/* The board: the log on the serial port, and the watchdog. */
+/* The board's own: the serial port, which takes the log, and the watchdog. */
 #include "hal/lm3s6965/chip.h"
 #include "hal/lm3s6965/registers.h"
 
-static int print_line(void *device, enum ow_log_level level, const char *text)
-{
-    static const char *const levels[] = { "error: ", "warning: ", "" };
-    (void)device;
-    chip_uart_puts(levels[level]);
-    chip_uart_puts(text);
-    chip_uart_puts("\r\n");
-    return OW_OK;
-}
+struct pl011 chip_uart = { .base = 0x4000C000u };
 
 /* Counts down twice: the first end interrupts, the second resets. */
 static int feed_watchdog(void *device, uint32_t limit_us)
@@ -31,4 +23,4 @@ static int feed_watchdog(void *device, uint32_t limit_us)
     return OW_OK;
 }
 
-const struct ow_board_ops chip_board_ops = { .log = print_line, .watchdog = feed_watchdog };
+const struct ow_board_ops chip_board_ops = { .log = pl011_log, .watchdog = feed_watchdog };

@@ -3,11 +3,12 @@
  * The LM3S6965 behind the seams: clock and wait (SysTick, WFI), serial port
  * (bytes, log), SSI with a D/C line as command bus, buttons, watchdog, and what
  * the chip keeps an eye on: faults, the memory map, the stack. There is one of
- * each, so none has a device struct: device is NULL.
+ * each, so none but the serial port has a device struct: device is NULL.
  */
 #ifndef OW_HAL_LM3S6965_CHIP_H
 #define OW_HAL_LM3S6965_CHIP_H
 
+#include "hal/bare/pl011.h"
 #include "hal/board.h"
 #include "hal/bus.h"
 #include "hal/clock.h"
@@ -23,10 +24,10 @@ extern const struct ow_clock_ops chip_clock_ops;
 /* Wakes for a received byte, a button, or the time, which it checks 100 times a second. */
 extern const struct ow_wait_ops chip_wait_ops;
 
-/* The serial port, 115200 8N1. read: from a ring of 512 bytes; write: never waits. */
-extern const struct ow_stream_ops chip_uart_ops;
+/* The serial port, 115200 8N1; a stream by pl011_stream_ops. */
+extern struct pl011 chip_uart;
 
-/* log: a line on the serial port, which it waits for. watchdog: resets the chip. */
+/* log: on the serial port, the device. watchdog: resets the chip. */
 extern const struct ow_board_ops chip_board_ops;
 
 /* SSI0 in mode 3 with D/C on PC7. Returns when the last bit is out; no read, no reset line. */
@@ -41,16 +42,9 @@ void chip_start(void);
 /* What the interrupts call. */
 void chip_tick(void);
 void chip_buttons_sample(uint64_t now_us);
-void chip_uart_receive(void);
 
-bool chip_uart_has_bytes(void);
 bool chip_buttons_have_event(void);
 uint64_t chip_now_us(void);
-
-/* Waits until all bytes are on the line. */
-void chip_uart_flush(void);
-void chip_uart_puts(const char *text);
-void chip_uart_hex(uint32_t value);
 
 /* Bytes of the stack that were ever used, and how large it is. */
 uint32_t chip_stack_used(void);

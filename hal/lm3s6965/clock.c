@@ -49,7 +49,7 @@ static int wait(void *device, uint64_t until_us)
 {
     (void)device;
     for (;;) {
-        int ready = chip_uart_has_bytes() + chip_buttons_have_event();
+        int ready = pl011_has_bytes(&chip_uart) + chip_buttons_have_event();
         if (ready > 0 || chip_now_us() >= until_us) {
             return ready;
         }

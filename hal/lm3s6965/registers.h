@@ -42,23 +42,6 @@
 #define PORT_PULL_UP(port) REG((port) + 0x510u)
 #define PORT_DIGITAL(port) REG((port) + 0x51Cu)
 
-/* Serial port 0 (PL011). */
-#define UART_DATA REG(0x4000C000u)
-#define UART_FLAGS REG(0x4000C018u)
-#define UART_DIVISOR REG(0x4000C024u)
-#define UART_FRACTION REG(0x4000C028u)
-#define UART_LINE REG(0x4000C02Cu)
-#define UART_CONTROL REG(0x4000C030u)
-#define UART_INTERRUPTS REG(0x4000C038u)
-#define UART_CLEAR REG(0x4000C044u)
-#define UART_FLAG_BUSY (1u << 3)
-#define UART_FLAG_RECEIVED_NONE (1u << 4)
-#define UART_FLAG_SEND_FULL (1u << 5)
-#define UART_LINE_8N1_FIFO 0x70u
-#define UART_CONTROL_ON 0x301u
-#define UART_RECEIVED ((1u << 4) | (1u << 6)) /* the FIFO is half full, or bytes wait in it */
-#define UART_DATA_ERRORS 0xF00u               /* framing, parity, break, overrun */
-
 /* Synchronous serial port 0 (PL022). */
 #define SSI_CR0 REG(0x40008000u)
 #define SSI_CR1 REG(0x40008004u)

@@ -72,12 +72,7 @@ void chip_start(void)
 
     PORT_FUNCTION(PORT_A) |= 0x3F; /* PA0, PA1: UART; PA2 .. PA5: SSI */
     PORT_DIGITAL(PORT_A) |= 0x3F;
-    UART_CONTROL = 0;
-    UART_DIVISOR = CHIP_HZ / (16 * 115200);
-    UART_FRACTION = (CHIP_HZ % (16 * 115200) * 64 + 8 * 115200) / (16 * 115200);
-    UART_LINE = UART_LINE_8N1_FIFO;
-    UART_INTERRUPTS = UART_RECEIVED;
-    UART_CONTROL = UART_CONTROL_ON;
+    pl011_start(&chip_uart, CHIP_HZ);
 
     PORT_PULL_UP(PORT_E) |= 0x0F;
     PORT_DIGITAL(PORT_E) |= 0x0F;
@@ -125,7 +120,7 @@ uint32_t chip_stack_bytes(void)
 
 void chip_reset(void)
 {
-    chip_uart_flush();
+    pl011_flush(&chip_uart);
     SCB_RESET = SCB_RESET_NOW;
     for (;;) {
     }
@@ -144,8 +139,8 @@ struct fault_frame {
 
 static void print(const char *name, uint32_t value)
 {
-    chip_uart_puts(name);
-    chip_uart_hex(value);
+    pl011_puts(&chip_uart, name);
+    pl011_hex(&chip_uart, value);
 }
 
 static bool is_readable(uint32_t sp)
@@ -159,7 +154,7 @@ _Noreturn void chip_report_fault(uint32_t sp, const uint32_t r4_r11[8]);
 _Noreturn void chip_report_fault(uint32_t sp, const uint32_t r4_r11[8])
 {
     static const char *const names[] = { "\r\n r0 ", " r1 ", " r2 ", " r3 " };
-    chip_uart_puts("\r\nFAULT");
+    pl011_puts(&chip_uart, "\r\nFAULT");
     print(" cfsr ", SCB_FAULT_STATUS);
     print(" hfsr ", SCB_HARD_FAULT_STATUS);
     print(" mmfar ", SCB_FAULT_ADDRESS);
@@ -175,13 +170,13 @@ _Noreturn void chip_report_fault(uint32_t sp, const uint32_t r4_r11[8])
         print(" pc ", frame->pc);
         print(" psr ", frame->psr);
     } else {
-        chip_uart_puts("\r\n the stack has overflowed");
+        pl011_puts(&chip_uart, "\r\n the stack has overflowed");
     }
-    chip_uart_puts("\r\n r4-r11");
+    pl011_puts(&chip_uart, "\r\n r4-r11");
     for (uint32_t i = 0; i < 8; i++) {
         print(" ", r4_r11[i]);
     }
-    chip_uart_puts("\r\nrestart\r\n");
+    pl011_puts(&chip_uart, "\r\nrestart\r\n");
     chip_reset();
 }
 
@@ -199,16 +194,21 @@ __attribute__((naked)) static void fault_entry(void)
                      "b chip_report_fault\n");
 }
 
+static void uart_entry(void)
+{
+    pl011_interrupt(&chip_uart);
+}
+
 static void surprise(void)
 {
-    chip_uart_puts("\r\nan interrupt that nobody expects\r\n");
+    pl011_puts(&chip_uart, "\r\nan interrupt that nobody expects\r\n");
     chip_reset();
 }
 
 /* The watchdog's first end of time; the chip resets at the second. */
 static void watchdog_entry(void)
 {
-    chip_uart_puts("\r\nthe watchdog was not fed\r\nrestart\r\n");
+    pl011_puts(&chip_uart, "\r\nthe watchdog was not fed\r\nrestart\r\n");
     chip_reset();
 }
 
@@ -245,7 +245,7 @@ __attribute__((section(".vectors"), used)) static const union vector vectors[16 
     NOBODY,
     { .handler = chip_tick },
     FIVE_NOBODIES,
-    [16 + IRQ_UART0] = { .handler = chip_uart_receive },
+    [16 + IRQ_UART0] = { .handler = uart_entry },
     FIVE_NOBODIES,
     FIVE_NOBODIES,
     NOBODY,

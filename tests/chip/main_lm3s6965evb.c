@@ -34,7 +34,7 @@ static int semihosting(int operation, void *argument)
 static _Noreturn void leave(uint32_t status)
 {
     uint32_t block[2] = { 0x20026, status }; /* the application ends */
-    chip_uart_flush();
+    pl011_flush(&chip_uart);
     semihosting(0x20, block);
     chip_reset();
 }
@@ -48,7 +48,7 @@ static void draw_scenes(void)
         status = ow_tree_open(&trees[1], smooth_tree, (uint32_t)(smooth_tree_end - smooth_tree));
     }
     if (status < 0) {
-        chip_uart_puts(ow_status_text(status));
+        pl011_puts(&chip_uart, ow_status_text(status));
         leave(1);
     }
     __asm__ volatile("cpsid i"); /* the counter counts the drawing alone */
@@ -64,8 +64,8 @@ static void draw_scenes(void)
         scene_draw(&scenes[i], &trees[smooth], memory, sizeof memory, &result);
         result.units = result.units * NS_A_COUNT / NS_AN_INSTRUCTION;
         scene_line(line, &scenes[i], &result);
-        chip_uart_puts(line);
-        chip_uart_puts("\r\n");
+        pl011_puts(&chip_uart, line);
+        pl011_puts(&chip_uart, "\r\n");
         failed |= result.status < 0;
     }
     leave(failed);
@@ -97,13 +97,13 @@ int main(void)
     for (const char *p = line; *p != '\0'; p++) {
         word = *p == ' ' ? p + 1 : word;
     }
-    chip_uart_puts("Oldwell's scenes on lm3s6965evb\r\n");
+    pl011_puts(&chip_uart, "Oldwell's scenes on lm3s6965evb\r\n");
     volatile uint32_t nowhere = 0x60000000; /* there is no memory */
     volatile uint32_t code = 0x100;         /* may not be written */
     if (is(word, "fault")) {
         (void)REG(nowhere);
     } else if (is(word, "stack")) {
-        chip_uart_hex(use_stack(1000));
+        pl011_hex(&chip_uart, use_stack(1000));
     } else if (is(word, "flash")) {
         REG(code) = 0;
     } else if (is(word, "execute")) {
@@ -115,6 +115,6 @@ int main(void)
     } else {
         draw_scenes();
     }
-    chip_uart_puts("still here\r\n");
+    pl011_puts(&chip_uart, "still here\r\n");
     leave(1);
 }

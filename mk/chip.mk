@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: 0BSD
 # Boards without an operating system: make BOARD=NAME [run] [TREE=FILE.owt].
 # The board's folder has main.c, tree.S and board.ld; here is what else it is made of.
-bare_boards := lm3s6965evb
+bare_boards := lm3s6965evb raspi2b
 
 # The core is compiled like this for `make size` and for every chip: small, no LTO.
 bare_flags = -std=c11 -ffreestanding -Os -g $(warnings) -ffunction-sections -fdata-sections \
@@ -12,6 +12,14 @@ lm3s6965evb_tools := arm-none-eabi-
 lm3s6965evb_cpu   := -mcpu=cortex-m3 -mthumb
 lm3s6965evb_hal   := $(wildcard hal/lm3s6965/*.c)
 lm3s6965evb_qemu  := qemu-system-arm -M lm3s6965evb
+
+raspi2b_tools := arm-none-eabi-
+raspi2b_cpu   := -mcpu=cortex-a7 -marm -mfloat-abi=soft -O2
+# For the board's own folder: make BOARD=raspi2b FRAME_WIDTH=800 FRAME_HEIGHT=600 FRAME_BITS=16
+raspi2b_board := $(if $(FRAME_WIDTH),-DFRAME_WIDTH=$(FRAME_WIDTH) -DFRAME_HEIGHT=$(FRAME_HEIGHT)) \
+                 $(if $(FRAME_BITS),-DFRAME_BITS=$(FRAME_BITS))
+raspi2b_hal   := $(wildcard hal/bcm2836/*.c hal/bcm2836/*.S)
+raspi2b_qemu  := qemu-system-arm -M raspi2b
 
 # The built-in tree: the Old Well, or TREE.
 TREE ?= $(O)/chip/oldwell.owt
@@ -45,14 +53,17 @@ $(call bare_program,$(1),scenes-$(1),$(device_src) $($(1)_hal) tests/chip/scenes
     tests/chip/main_$(1).c tests/chip/trees.S)
 $(O)/oldwell-$(1).bin: $(O)/oldwell-$(1).elf
 	$(Q)$($(1)_tools)objcopy -O binary $$< $$@
-$(O)/$(1)/flags: FORCE
+$(O)/$(1)/flags $(O)/$(1)/boards/flags: FORCE
 	@mkdir -p $$(@D)
-	@echo '$($(1)_cpu) $(bare_flags) $(TREE)' | cmp -s - $$@ || \
-	    echo '$($(1)_cpu) $(bare_flags) $(TREE)' >$$@
+	@echo '$$(said)' | cmp -s - $$@ || echo '$$(said)' >$$@
+$(O)/$(1)/flags: said = $($(1)_cpu) $(bare_flags)
+$(O)/$(1)/boards/flags: said = $($(1)_board) $(TREE)
+$(O)/$(1)/boards/$(1)/main.o $(O)/$(1)/boards/$(1)/tree.o: $(O)/$(1)/boards/flags
+$(O)/$(1)/boards/$(1)/main.o: board_flags = $($(1)_board)
 $(O)/$(1)/%.o: %.c $(O)/$(1)/flags
 	@mkdir -p $$(@D)
 	@echo "  cc $$< ($(1))"
-	$(Q)$($(1)_tools)gcc $($(1)_cpu) $(bare_flags) -fstack-usage -MMD -MP -c -o $$@ $$<
+	$(Q)$($(1)_tools)gcc $(bare_flags) $($(1)_cpu) $$(board_flags) -fstack-usage -MMD -MP -c -o $$@ $$<
 $(O)/$(1)/%.o: %.S $(O)/$(1)/flags
 	@mkdir -p $$(@D)
 	@echo "  as $$< ($(1))"

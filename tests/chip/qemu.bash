@@ -69,10 +69,10 @@ key() { # QCODE true|false: a button goes down or up
         {"down":'"$2"',"key":{"type":"qcode","data":"'"$1"'"}}}]}}' 2>/dev/null
 }
 
-# look FILE.ppm [FACTOR]: the panel's picture; each of its pixels is FACTOR times FACTOR (1) large.
+# look FILE.ppm [FACTOR [rgb565]]: the panel's picture; a pixel is FACTOR times FACTOR (1) large.
 look() {
     qmp '{"execute":"screendump","arguments":{"filename":"'"$work/dump.ppm"'"}}' &&
-        "$O/tests/panel_dump" "${2:-1}" <"$work/dump.ppm" >"$1"
+        "$O/tests/panel_dump" "${2:-1}" "${@:3}" <"$work/dump.ppm" >"$1"
 }
 
 qemu_stop() {

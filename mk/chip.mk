@@ -101,7 +101,8 @@ endif
 chip-tools: $(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes $(O)/chip/smooth.owt
 $(O)/tests/panel_dump: $(O)/obj/tests/chip/panel_dump.o
 $(O)/tests/read_message: $(O)/obj/tests/chip/read_message.o $(O)/obj/firmware/device/font.o
-$(O)/tests/scenes: $(call obj,tests/chip/scenes.c tests/chip/main_host.c) $(O)/owsim.a $(O)/core.a
+$(O)/tests/scenes: $(call obj,tests/chip/scenes.c tests/chip/main_host.c \
+                    $(wildcard firmware/viewer/*.c)) $(O)/core.a
 $(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes:
 	@mkdir -p $(@D)
 	@echo "  ld $@"

@@ -49,7 +49,7 @@ qmp() {
 # hear PATTERN [SECONDS]: reads lines of the board until one fits; it is then in $heard.
 hear() {
     while IFS= read -r -t "${2:-20}" heard <&4; do
-        heard=${heard%$'\r'}
+        heard=${heard//[$'\r\x11\x13']/} # and XON, XOFF
         echo "$heard" >>"$work/said"
         # shellcheck disable=SC2053 # a pattern is meant
         [[ $heard != $1 ]] || return 0

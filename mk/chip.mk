@@ -72,10 +72,16 @@ $(O)/$(1)/%.o: %.S $(O)/$(1)/flags
 $(O)/$(1)/boards/$(1)/tree.o: $(TREE)
 $(O)/$(1)/tests/chip/trees.o: $(O)/chip/oldwell.owt $(O)/chip/smooth.owt
 endef
+# The core alone, linked as the least of viewers would.
+$(eval $(call bare_program,lm3s6965evb,size-lm3s6965evb,$(wildcard firmware/core/*.c) hal/bare/memory.c \
+    tests/chip/main_size.c boards/lm3s6965evb/tree.S))
+.PHONY: size
+size: $(O)/size-lm3s6965evb.elf $(foreach b,$(bare_boards),$(O)/oldwell-$(b).elf)
+	@scripts/size "$(O)"
 $(foreach b,$(bare_boards),$(eval $(call bare_board,$(b))))
 -include $(shell find $(foreach b,$(bare_boards),$(O)/$(b)) -name '*.d' 2>/dev/null)
 
-.PHONY: board run image flash size
+.PHONY: board run image flash
 ifneq ($(filter $(BOARD),$(bare_boards)),)
 all: board
 board: board-$(BOARD)

@@ -3,7 +3,7 @@
 #include "hal/bcm2836/chip.h"
 #include "hal/bcm2836/registers.h"
 
-struct pl011 chip_uart = { .base = PERIPHERALS + 0x201000 };
+struct pl011 chip_uart;
 
 /* ---- time ---- */
 

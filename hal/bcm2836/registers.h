@@ -34,6 +34,8 @@
 #define POWER_RESET_MASK 0x30u
 #define POWER_RESET_FULL 0x20u
 
+#define UART_0 (PERIPHERALS + 0x201000) /* a PL011 */
+
 #define PINS_10_19 REG(PERIPHERALS + 0x200004)
 #define PINS_UART_MASK (077u << 12) /* pins 14 and 15 */
 #define PINS_UART (044u << 12)      /* their first alternative */

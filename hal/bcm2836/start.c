@@ -102,6 +102,7 @@ static void call_others(void)
 void chip_start(void)
 {
     PINS_10_19 = (PINS_10_19 & ~PINS_UART_MASK) | PINS_UART;
+    chip_uart.base = UART_0;
     pl011_start(&chip_uart, CHIP_UART_HZ);
     IRQ_ENABLE_1 = IRQ_1_TIMER_1;
     IRQ_ENABLE_2 = IRQ_2_UART;

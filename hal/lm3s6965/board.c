@@ -3,7 +3,7 @@
 #include "hal/lm3s6965/chip.h"
 #include "hal/lm3s6965/registers.h"
 
-struct pl011 chip_uart = { .base = 0x4000C000u };
+struct pl011 chip_uart;
 
 /* Counts down twice: the first end interrupts, the second resets. */
 static int feed_watchdog(void *device, uint32_t limit_us)

@@ -42,6 +42,8 @@
 #define PORT_PULL_UP(port) REG((port) + 0x510u)
 #define PORT_DIGITAL(port) REG((port) + 0x51Cu)
 
+#define UART_0 0x4000C000u /* a PL011 */
+
 /* Synchronous serial port 0 (PL022). */
 #define SSI_CR0 REG(0x40008000u)
 #define SSI_CR1 REG(0x40008004u)

@@ -72,6 +72,7 @@ void chip_start(void)
 
     PORT_FUNCTION(PORT_A) |= 0x3F; /* PA0, PA1: UART; PA2 .. PA5: SSI */
     PORT_DIGITAL(PORT_A) |= 0x3F;
+    chip_uart.base = UART_0;
     pl011_start(&chip_uart, CHIP_HZ);
 
     PORT_PULL_UP(PORT_E) |= 0x0F;

@@ -6,7 +6,7 @@ O=${O:-build}
 work=$(mktemp -d "${TMPDIR:-/tmp}/oldwell-chip.XXXXXX")
 qemu_pid=
 trap 'qemu_stop; rm -rf "$work"' EXIT
-failed=0
+export failed=0
 
 ok() { # NAME
     echo "ok $1"

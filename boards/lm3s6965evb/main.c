@@ -3,6 +3,8 @@
 #include "firmware/device/device.h"
 #include "hal/lm3s6965/chip.h"
 #include "hal/panel/command_panel.h"
+#include "ow_skip.h"
+#include "ow_surface.h"
 
 #define TURN_OF(degrees) ((ow_turn)((((uint64_t)(degrees) << 32) + 180) / 360))
 
@@ -29,6 +31,13 @@ static uint8_t memory[MEMORY_BYTES] __attribute__((aligned(8)));
 static struct ow_command_panel panel;
 static struct ow_device device;
 
+/* What the look below wants; skipping saves it time, the difference the bus. */
+static const struct ow_parts parts = {
+    .dynamic = &ow_surface_dynamic,
+    .difference = &ow_differences,
+    .skip = &ow_skipping,
+};
+
 static const struct ow_clock clock = { &chip_clock_ops, NULL };
 static const struct ow_wait wait = { &chip_wait_ops, NULL };
 static const struct ow_stream stream = { &pl011_stream_ops, &chip_uart };
@@ -51,6 +60,7 @@ int main(void)
 {
     static const struct ow_device_config config = {
         .viewer = {
+            .parts = &parts,
             .look = { /* the simulator's, on black */
                 .order = OW_FRONT_TO_BACK,
                 .shade = OW_SHADE_FLAT,

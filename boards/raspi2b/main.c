@@ -41,6 +41,7 @@ int main(void)
 {
     const struct ow_device_config config = {
         .viewer = {
+            .parts = &ow_parts_all,
             .look = { /* the simulator's */
                 .order = OW_FRONT_TO_BACK,
                 .shade = OW_SHADE_FLAT,

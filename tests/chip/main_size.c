@@ -5,6 +5,7 @@
  * greys. Linked, not run.
  */
 #include "ow_draw.h"
+#include "ow_surface.h"
 
 enum { WIDTH = 128, HEIGHT = 64, MEMORY_BYTES = 20 << 10 };
 
@@ -16,11 +17,16 @@ extern const uint8_t board_tree_end[];
 static uint8_t memory[MEMORY_BYTES] __attribute__((aligned(8)));
 static uint8_t pixels[WIDTH * HEIGHT / 2] __attribute__((aligned(4)));
 
+static const struct ow_parts parts = {
+    .painter = &ow_surface_painter,
+    .dynamic = &ow_surface_dynamic,
+};
+
 static volatile uint32_t way; /* what the compiler may not foresee */
 
 void chip_reset_entry(void)
 {
-    struct ow_workspace_config config = { .width = WIDTH, .lines = HEIGHT };
+    struct ow_workspace_config config = { .parts = &parts, .width = WIDTH, .lines = HEIGHT };
     struct ow_camera camera = { .fov = 1u << 29, .width_pixels = WIDTH, .height_pixels = HEIGHT };
     struct ow_look look = {
         .order = way & 1 ? OW_FRONT_TO_BACK : OW_BACK_TO_FRONT,

@@ -3,6 +3,10 @@
 #include "tests/chip/scenes.h"
 
 #include "firmware/device/text.h"
+#include "ow_coverage.h"
+#include "ow_dither.h"
+#include "ow_frame.h"
+#include "ow_lines.h"
 
 #define TURN_OF(degrees) ((ow_turn)((((uint64_t)(degrees) << 32) + 180) / 360))
 
@@ -21,6 +25,18 @@ const struct scene scenes[] = {
     { "lines", 320, 240, &ow_format_mono, OW_FRONT_TO_BACK, OW_SHADE_LINES, false, 48, 0, 4 },
 };
 const uint32_t scene_count = sizeof scenes / sizeof scenes[0];
+
+/* All but the fast way for small faces, which costs time where a picture has many bands. */
+static const struct ow_parts parts = {
+    .painter = &ow_surface_painter,
+    .dynamic = &ow_surface_dynamic,
+    .scan_line = &ow_line_order,
+    .coverage = &ow_faces_covering,
+    .lines = &ow_faces_in_lines,
+    .dither = &ow_dithering,
+    .difference = &ow_differences,
+    .skip = &ow_skipping,
+};
 
 /* ---- a panel that takes a checksum ---- */
 
@@ -103,6 +119,7 @@ void scene_draw(const struct scene *scene, const struct ow_tree *tree, void *mem
     struct ow_clock clock = { &no_time_ops, NULL };
     struct counter counter = { 0, 0 };
     struct ow_viewer_config config = {
+        .parts = &parts,
         .tree = tree,
         .look = {
             .order = scene->order,

@@ -132,7 +132,7 @@ static uint32_t scale_colour(uint32_t colour, uint32_t intensity)
 }
 
 /* A stored normal of the side that is seen; the cap's where a cut shows the inside. */
-static void seen_normal(const struct ow_shader *shader, const uint8_t *bytes, uint32_t normal_at,
+static void seen_normal(const struct ow_shader *shader, const ow_byte *bytes, uint32_t normal_at,
                         bool reverse, int32_t normal[3])
 {
     for (uint32_t i = 0; i < 3; i++) {
@@ -142,7 +142,7 @@ static void seen_normal(const struct ow_shader *shader, const uint8_t *bytes, ui
 }
 
 /* Intensity at a stored normal, 65536 for full. */
-static int32_t intensity_q16(const struct ow_shader *shader, const uint8_t *bytes,
+static int32_t intensity_q16(const struct ow_shader *shader, const ow_byte *bytes,
                              uint32_t normal_at, bool reverse)
 {
     int32_t normal[3];
@@ -158,7 +158,7 @@ static int32_t intensity_q16(const struct ow_shader *shader, const uint8_t *byte
 uint32_t ow_face_colour(const struct ow_shader *shader, const struct ow_tree *tree,
                         const struct ow_face *face)
 {
-    const uint8_t *bytes = tree->bytes;
+    const ow_byte *bytes = tree->bytes;
     if (shader->shade == OW_SHADE_ID) {
         return (tree->flags & OW_TREE_IDS)
                    ? ow_read_u32(bytes, face->at + OW_POLYGON_HEAD_BYTES) & 0xFFFFFF

@@ -11,7 +11,9 @@
 
 struct settings {
     const char *tree; /* a file, or "-" */
+    bool planes;      /* it is a plane image */
     uint32_t size[2]; /* pixels */
+    bool has_size;
 
     /* Views: one by eye, a file of them, or the orbit. Model units and degrees. */
     double eye[3];

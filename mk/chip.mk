@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: 0BSD
 # Boards without an operating system: make BOARD=NAME [run] [TREE=FILE.owt].
 # The board's folder has main.c, tree.S and board.ld; here is what else it is made of.
-bare_boards := lm3s6965evb raspi2b
+bare_boards := lm3s6965evb raspi2b raspi2b-planes
 
 # The core is compiled like this for `make size` and for every chip: small, no LTO.
 bare_flags = -std=c11 -ffreestanding -Os -g $(warnings) -ffunction-sections -fdata-sections \
@@ -20,6 +20,13 @@ raspi2b_board := $(if $(FRAME_WIDTH),-DFRAME_WIDTH=$(FRAME_WIDTH) -DFRAME_HEIGHT
                  $(if $(FRAME_BITS),-DFRAME_BITS=$(FRAME_BITS))
 raspi2b_hal   := $(wildcard hal/bcm2836/*.c hal/bcm2836/*.S)
 raspi2b_qemu  := qemu-system-arm -M raspi2b
+# The same, with the tree in the frame buffer's spare bit planes.
+raspi2b-planes_tools  := $(raspi2b_tools)
+raspi2b-planes_cpu    := $(raspi2b_cpu) -DOW_STRIDE=4
+raspi2b-planes_board  := $(raspi2b_board)
+raspi2b-planes_hal    := $(raspi2b_hal)
+raspi2b-planes_qemu   := $(raspi2b_qemu)
+raspi2b-planes_folder := raspi2b
 
 # The built-in tree: the Old Well, or TREE.
 TREE ?= $(O)/chip/oldwell.owt
@@ -37,20 +44,23 @@ $(O)/chip/smooth.owt: $(O)/owgen $(O)/owc
 device_src := $(wildcard firmware/core/*.c firmware/viewer/*.c firmware/device/*.c hal/panel/*.c) \
               $(wildcard hal/bare/*.c)
 
+# The folder of board $(1), if it is not its name.
+folder = $(or $($(1)_folder),$(1))
+
 # bare_program BOARD PROGRAM SOURCES: PROGRAM.elf of these sources.
 define bare_program
-$(O)/$(2).elf: $(patsubst %,$(O)/$(1)/%.o,$(basename $(3))) boards/$(1)/board.ld
+$(O)/$(2).elf: $(patsubst %,$(O)/$(1)/%.o,$(basename $(3))) boards/$(folder)/board.ld
 	@echo "  ld $$@"
-	$(Q)$($(1)_tools)gcc $($(1)_cpu) -o $$@ $$(filter %.o,$$^) -T boards/$(1)/board.ld \
+	$(Q)$($(1)_tools)gcc $($(1)_cpu) -o $$@ $$(filter %.o,$$^) -T boards/$(folder)/board.ld \
 	    $(bare_link) -Wl,-Map=$$(@:.elf=.map)
 endef
 
 define bare_board
 .PHONY: board-$(1)
 board-$(1): $(O)/oldwell-$(1).elf $(O)/oldwell-$(1).bin
-$(call bare_program,$(1),oldwell-$(1),$(device_src) $($(1)_hal) boards/$(1)/main.c boards/$(1)/tree.S)
+$(call bare_program,$(1),oldwell-$(1),$(device_src) $($(1)_hal) boards/$(folder)/main.c boards/$(folder)/tree.S)
 $(call bare_program,$(1),scenes-$(1),$(device_src) $($(1)_hal) tests/chip/scenes.c \
-    tests/chip/main_$(1).c tests/chip/trees.S)
+    tests/chip/main_$(folder).c tests/chip/trees.S)
 $(O)/oldwell-$(1).bin: $(O)/oldwell-$(1).elf
 	$(Q)$($(1)_tools)objcopy -O binary $$< $$@
 $(O)/$(1)/flags $(O)/$(1)/boards/flags: FORCE
@@ -58,8 +68,8 @@ $(O)/$(1)/flags $(O)/$(1)/boards/flags: FORCE
 	@echo '$$(said)' | cmp -s - $$@ || echo '$$(said)' >$$@
 $(O)/$(1)/flags: said = $($(1)_cpu) $(bare_flags)
 $(O)/$(1)/boards/flags: said = $($(1)_board) $(TREE)
-$(O)/$(1)/boards/$(1)/main.o $(O)/$(1)/boards/$(1)/tree.o: $(O)/$(1)/boards/flags
-$(O)/$(1)/boards/$(1)/main.o: board_flags = $($(1)_board)
+$(O)/$(1)/boards/$(folder)/main.o $(O)/$(1)/boards/$(folder)/tree.o: $(O)/$(1)/boards/flags
+$(O)/$(1)/boards/$(folder)/main.o: board_flags = $($(1)_board)
 $(O)/$(1)/%.o: %.c $(O)/$(1)/flags
 	@mkdir -p $$(@D)
 	@echo "  cc $$< ($(1))"
@@ -69,14 +79,14 @@ $(O)/$(1)/%.o: %.S $(O)/$(1)/flags
 	@echo "  as $$< ($(1))"
 	$(Q)$($(1)_tools)gcc $($(1)_cpu) -g -DTREE='"$(TREE)"' -DFLAT_TREE='"$(O)/chip/oldwell.owt"' \
 	    -DSMOOTH_TREE='"$(O)/chip/smooth.owt"' -c -o $$@ $$<
-$(O)/$(1)/boards/$(1)/tree.o: $(TREE)
+$(O)/$(1)/boards/$(folder)/tree.o: $(TREE)
 $(O)/$(1)/tests/chip/trees.o: $(O)/chip/oldwell.owt $(O)/chip/smooth.owt
 endef
 # The core alone, linked as the least of viewers would.
 $(eval $(call bare_program,lm3s6965evb,size-lm3s6965evb,$(wildcard firmware/core/*.c) hal/bare/memory.c \
     tests/chip/main_size.c boards/lm3s6965evb/tree.S))
 .PHONY: size
-size: $(O)/size-lm3s6965evb.elf $(foreach b,$(bare_boards),$(O)/oldwell-$(b).elf)
+size: $(O)/size-lm3s6965evb.elf $(foreach b,lm3s6965evb raspi2b,$(O)/oldwell-$(b).elf)
 	@scripts/size "$(O)"
 $(foreach b,$(bare_boards),$(eval $(call bare_board,$(b))))
 -include $(shell find $(foreach b,$(bare_boards),$(O)/$(b)) -name '*.d' 2>/dev/null)

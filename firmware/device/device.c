@@ -167,7 +167,10 @@ static void print_info(const struct ow_device *device)
 static void show_tree(struct ow_device *device, const char *what, const void *bytes, uint32_t size)
 {
     struct ow_viewer_config config = device->config.viewer;
-    int status = ow_tree_open(&device->tree, bytes, size);
+    if (device->config.place != NULL) {
+        bytes = device->config.place(bytes, size);
+    }
+    int status = bytes == NULL ? OW_MEMORY : (int)ow_tree_open(&device->tree, bytes, size);
     if (status < 0) {
         say(device, what, status);
         return;

@@ -30,6 +30,12 @@ struct ow_device_config {
     uint32_t tree_bytes;
     uint8_t *arena; /* for a tree that comes; aligned to 4 bytes */
     uint32_t arena_bytes;
+    /*
+     * Brings a tree, of the built-in one's or the arena's bytes, to where it is read, and returns
+     * that place, or NULL if there is no room: for trees in bit planes. NULL: trees are read where
+     * they are.
+     */
+    const void *(*place)(const void *tree, uint32_t bytes);
     void *memory; /* for the viewer and for messages; aligned to 8 bytes */
     uint32_t memory_bytes;
 

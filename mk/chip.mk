@@ -28,6 +28,13 @@ raspi2b-planes_hal    := $(raspi2b_hal)
 raspi2b-planes_qemu   := $(raspi2b_qemu)
 raspi2b-planes_folder := raspi2b
 
+# Of the chip with little memory only the scenes and the size: a tree of 4 bytes a byte in flash.
+lm3s6965evb-planes_tools  := $(lm3s6965evb_tools)
+lm3s6965evb-planes_cpu    := $(lm3s6965evb_cpu) -DOW_STRIDE=4
+lm3s6965evb-planes_hal    := $(lm3s6965evb_hal)
+lm3s6965evb-planes_folder := lm3s6965evb
+lm3s6965evb-planes_spread := .spread
+
 # The built-in tree: the Old Well, or TREE.
 TREE ?= $(O)/chip/oldwell.owt
 $(O)/chip/oldwell.obj: $(O)/owgen
@@ -35,6 +42,9 @@ $(O)/chip/oldwell.obj: $(O)/owgen
 	$(Q)$(O)/owgen oldwell --detail high -o $@
 $(O)/chip/oldwell.owt: $(O)/chip/oldwell.obj $(O)/owc
 	$(Q)$(O)/owc $< -o $@ 2>$(@:.owt=.log)
+# Spread over pixels, as planes of a frame buffer would hold it.
+$(O)/chip/%.owt.spread: $(O)/chip/%.owt $(O)/tests/spread
+	$(Q)$(O)/tests/spread 4 <$< >$@
 # One with normals, small enough for a chip to receive.
 $(O)/chip/smooth.owt: $(O)/owgen $(O)/owc
 	@mkdir -p $(@D)
@@ -55,14 +65,10 @@ $(O)/$(2).elf: $(patsubst %,$(O)/$(1)/%.o,$(basename $(3))) boards/$(folder)/boa
 	    $(bare_link) -Wl,-Map=$$(@:.elf=.map)
 endef
 
-define bare_board
-.PHONY: board-$(1)
-board-$(1): $(O)/oldwell-$(1).elf $(O)/oldwell-$(1).bin
-$(call bare_program,$(1),oldwell-$(1),$(device_src) $($(1)_hal) boards/$(folder)/main.c boards/$(folder)/tree.S)
+# bare_objects BOARD: how its sources are compiled, and the scenes of the tests.
+define bare_objects
 $(call bare_program,$(1),scenes-$(1),$(device_src) $($(1)_hal) tests/chip/scenes.c \
     tests/chip/main_$(folder).c tests/chip/trees.S)
-$(O)/oldwell-$(1).bin: $(O)/oldwell-$(1).elf
-	$(Q)$($(1)_tools)objcopy -O binary $$< $$@
 $(O)/$(1)/flags $(O)/$(1)/boards/flags: FORCE
 	@mkdir -p $$(@D)
 	@echo '$$(said)' | cmp -s - $$@ || echo '$$(said)' >$$@
@@ -77,19 +83,31 @@ $(O)/$(1)/%.o: %.c $(O)/$(1)/flags
 $(O)/$(1)/%.o: %.S $(O)/$(1)/flags
 	@mkdir -p $$(@D)
 	@echo "  as $$< ($(1))"
-	$(Q)$($(1)_tools)gcc $($(1)_cpu) -g -DTREE='"$(TREE)"' -DFLAT_TREE='"$(O)/chip/oldwell.owt"' \
-	    -DSMOOTH_TREE='"$(O)/chip/smooth.owt"' -c -o $$@ $$<
+	$(Q)$($(1)_tools)gcc $($(1)_cpu) -g -DTREE='"$(TREE)"' -DFLAT_TREE='"$(O)/chip/oldwell.owt$($(1)_spread)"' \
+	    -DSMOOTH_TREE='"$(O)/chip/smooth.owt$($(1)_spread)"' -c -o $$@ $$<
 $(O)/$(1)/boards/$(folder)/tree.o: $(TREE)
-$(O)/$(1)/tests/chip/trees.o: $(O)/chip/oldwell.owt $(O)/chip/smooth.owt
+$(O)/$(1)/tests/chip/trees.o: $(patsubst %,$(O)/chip/%.owt$($(1)_spread),oldwell smooth)
+endef
+
+# bare_board BOARD: its program.
+define bare_board
+$(call bare_objects,$(1))
+.PHONY: board-$(1)
+board-$(1): $(O)/oldwell-$(1).elf $(O)/oldwell-$(1).bin
+$(call bare_program,$(1),oldwell-$(1),$(device_src) $($(1)_hal) boards/$(folder)/main.c boards/$(folder)/tree.S)
+$(O)/oldwell-$(1).bin: $(O)/oldwell-$(1).elf
+	$(Q)$($(1)_tools)objcopy -O binary $$< $$@
 endef
 # The core alone, linked as the least of viewers would.
-$(eval $(call bare_program,lm3s6965evb,size-lm3s6965evb,$(wildcard firmware/core/*.c) hal/bare/memory.c \
-    tests/chip/main_size.c boards/lm3s6965evb/tree.S))
+$(foreach v,lm3s6965evb lm3s6965evb-planes,$(eval $(call bare_program,$(v),size-$(v), \
+    $(wildcard firmware/core/*.c) hal/bare/memory.c tests/chip/main_size.c \
+    boards/lm3s6965evb/tree.S)))
+$(eval $(call bare_objects,lm3s6965evb-planes))
 .PHONY: size
-size: $(O)/size-lm3s6965evb.elf $(foreach b,lm3s6965evb raspi2b,$(O)/oldwell-$(b).elf)
+size: $(O)/size-lm3s6965evb.elf $(O)/size-lm3s6965evb-planes.elf $(foreach b,lm3s6965evb raspi2b,$(O)/oldwell-$(b).elf)
 	@scripts/size "$(O)"
 $(foreach b,$(bare_boards),$(eval $(call bare_board,$(b))))
--include $(shell find $(foreach b,$(bare_boards),$(O)/$(b)) -name '*.d' 2>/dev/null)
+-include $(shell find $(foreach b,$(bare_boards) lm3s6965evb-planes,$(O)/$(b)) -name '*.d' 2>/dev/null)
 
 .PHONY: board run image flash
 ifneq ($(filter $(BOARD),$(bare_boards)),)
@@ -114,12 +132,14 @@ endif
 
 # What the tests of the boards use on the host.
 .PHONY: chip-tools
-chip-tools: $(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes $(O)/chip/smooth.owt
+chip-tools: $(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes $(O)/tests/spread \
+            $(O)/chip/smooth.owt
+$(O)/tests/spread: $(O)/obj/tests/chip/spread.o
 $(O)/tests/panel_dump: $(O)/obj/tests/chip/panel_dump.o
 $(O)/tests/read_message: $(O)/obj/tests/chip/read_message.o $(O)/obj/firmware/device/font.o
 $(O)/tests/scenes: $(call obj,tests/chip/scenes.c tests/chip/main_host.c \
                     $(wildcard firmware/viewer/*.c)) $(O)/core.a
-$(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes:
+$(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes $(O)/tests/spread:
 	@mkdir -p $(@D)
 	@echo "  ld $@"
 	$(Q)$(link_program)

@@ -41,6 +41,8 @@ fi
 
 scripts/m3-scenes "$O" >"$work/m3" 2>"$work/m3-errors" || true
 same "Cortex-M3" "$work/m3"
+scripts/m3-scenes "$O" planes >"$work/m3-planes" 2>"$work/m3-errors" || true
+same "Cortex-M3 that reads bit planes" "$work/m3-planes"
 
 build BOARD=raspi2b "$O/scenes-raspi2b.elf"
 qemu_start raspi2b "$O/scenes-raspi2b.elf"

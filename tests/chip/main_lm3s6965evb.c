@@ -43,9 +43,11 @@ static void draw_scenes(void)
 {
     static struct ow_tree trees[2];
     uint32_t failed = 0;
-    int status = ow_tree_open(&trees[0], flat_tree, (uint32_t)(flat_tree_end - flat_tree));
+    int status =
+        ow_tree_open(&trees[0], flat_tree, (uint32_t)(flat_tree_end - flat_tree) / OW_STRIDE);
     if (status == OW_OK) {
-        status = ow_tree_open(&trees[1], smooth_tree, (uint32_t)(smooth_tree_end - smooth_tree));
+        status = ow_tree_open(&trees[1], smooth_tree,
+                              (uint32_t)(smooth_tree_end - smooth_tree) / OW_STRIDE);
     }
     if (status < 0) {
         pl011_puts(&chip_uart, ow_status_text(status));

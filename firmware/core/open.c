@@ -22,7 +22,7 @@ struct tally {
     uint32_t next_child; /* offset of the first node that nothing has referred to yet */
 };
 
-static enum ow_status check_identity(const uint8_t *bytes, uint32_t size)
+static enum ow_status check_identity(const ow_byte *bytes, uint32_t size)
 {
     if (size < sizeof(struct ow_disk_header)) {
         return OW_TRUNCATED;
@@ -42,12 +42,12 @@ static enum ow_status check_identity(const uint8_t *bytes, uint32_t size)
         return OW_CORRUPT;
     }
     uint32_t after = FIELD(crc32) + 4;
-    uint32_t crc = ow_crc32(0, bytes, FIELD(crc32));
-    crc = ow_crc32(crc, bytes + after, blob_bytes - after);
+    uint32_t crc = ow_crc32_blob(0, bytes, FIELD(crc32));
+    crc = ow_crc32_blob(crc, bytes + after, blob_bytes - after);
     return crc == ow_read_u32(bytes, FIELD(crc32)) ? OW_OK : OW_CHECKSUM;
 }
 
-static void read_header(struct ow_tree *tree, const uint8_t *bytes)
+static void read_header(struct ow_tree *tree, const ow_byte *bytes)
 {
     tree->bytes = bytes;
     tree->blob_bytes = ow_read_u32(bytes, FIELD(blob_bytes));
@@ -91,7 +91,7 @@ static bool section_fits(const struct ow_tree *tree, uint32_t begin, uint32_t en
 
 static enum ow_status check_header(const struct ow_tree *tree)
 {
-    const uint8_t *bytes = tree->bytes;
+    const ow_byte *bytes = tree->bytes;
     uint32_t instances_at = ow_read_u32(bytes, FIELD(instances_at));
     uint32_t normal_count = (tree->flags & OW_TREE_NORMALS) ? tree->vertex_count : 0;
     bool sections =
@@ -258,7 +258,7 @@ static bool nodes_are_valid(const struct ow_tree *tree, struct tally *tally)
 /* Whoever has looked at the box need not look at each vertex: it holds them all. */
 static bool vertices_are_valid(const struct ow_tree *tree)
 {
-    const uint8_t *place = tree->bytes + tree->vertices_at;
+    const ow_byte *place = tree->bytes + tree->vertices_at;
     for (uint32_t v = 0; v < tree->vertex_count; v++) {
         for (uint32_t i = 0; i < 3; i++, place += 2) {
             int32_t coordinate = ow_read_i16(place, 0);

@@ -17,7 +17,7 @@ _Static_assert(3 * 128 * (OW_INTENSITY_MAX * (int64_t)OW_PER_NORMAL_Q22 / 64 + 1
 _Static_assert((OW_LIGHTS_MAX + 1LL) * OW_LIGHT_FULL < INT32_MAX, "all lights' sum fits 32 bits");
 
 /* A stored normal of the side that is seen; the cap's where a cut shows the inside. */
-static inline void ow_seen_normal(const struct ow_shader *shader, const uint8_t *bytes,
+static inline void ow_seen_normal(const struct ow_shader *shader, const ow_byte *bytes,
                                   uint32_t normal_at, bool reverse, int32_t normal[3])
 {
     for (uint32_t i = 0; i < 3; i++) {

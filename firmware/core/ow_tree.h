@@ -6,11 +6,12 @@
 #include <stdint.h>
 
 #include "ow_blob.h"
+#include "ow_read.h"
 #include "ow_status.h"
 
 /* Filled by ow_tree_open; all fields are read-only for others. */
 struct ow_tree {
-    const uint8_t *bytes; /* the blob; must stay and not change while the tree is used */
+    const ow_byte *bytes; /* the blob; must stay and not change while the tree is used */
     uint32_t blob_bytes;
     uint32_t flags; /* OW_TREE_... */
     uint32_t polygon_count;
@@ -40,8 +41,9 @@ struct ow_tree {
  */
 enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t size);
 
-/* zlib's CRC-32 of size bytes, continued from crc (0 to start). */
+/* zlib's CRC-32 of size bytes, continued from crc (0 to start); of bytes of a blob. */
 uint32_t ow_crc32(uint32_t crc, const void *bytes, uint32_t size);
+uint32_t ow_crc32_blob(uint32_t crc, const ow_byte *bytes, uint32_t size);
 
 /* Bytes of the polygon record at byte offset at of the blob. */
 uint32_t ow_polygon_bytes(const struct ow_tree *tree, uint32_t at);

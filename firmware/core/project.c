@@ -27,7 +27,7 @@ bool ow_needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view
 }
 
 /* Nothing to clip, perspective: the commonest case, without a branch. */
-static void project_perspective(const uint8_t *place, const struct ow_view *view, uint32_t count,
+static void project_perspective(const ow_byte *place, const struct ow_view *view, uint32_t count,
                                 struct ow_outline_point *points)
 {
     const struct ow_view v = *view; /* a copy, so that no store can touch what the loop reads */

@@ -44,7 +44,7 @@ _Static_assert(3LL * 127 * ((OW_EYE_MAX >> 8) + OW_LATTICE_MAX + 1) < INT32_MAX,
 static inline bool looks_away(const struct ow_walk *walk, uint32_t at, bool reverse)
 {
     const struct ow_tree *tree = walk->tree;
-    const uint8_t *bytes = tree->bytes;
+    const ow_byte *bytes = tree->bytes;
     uint32_t corner_at = at + tree->corners_in_record;
     uint32_t corner = (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(bytes, corner_at)
                                                       : ow_read_u16(bytes, corner_at);

@@ -10,12 +10,12 @@
 #include "ow_walk.h"
 
 /* Component i of a plane's normal; i = 0 .. 2. */
-static inline int64_t plane_normal(const uint8_t *bytes, uint32_t plane_at, uint32_t i)
+static inline int64_t plane_normal(const ow_byte *bytes, uint32_t plane_at, uint32_t i)
 {
     return (int32_t)(ow_read_u32(bytes, plane_at + 4 * i) << 8) >> 8;
 }
 
-static inline int64_t plane_distance(const uint8_t *bytes, uint32_t plane_at)
+static inline int64_t plane_distance(const ow_byte *bytes, uint32_t plane_at)
 {
     int64_t high = (int64_t)ow_read_i8(bytes, plane_at + 7) * 256 + ow_read_u8(bytes, plane_at + 3);
     return high * 4294967296 + ow_read_u32(bytes, plane_at + 12);
@@ -50,7 +50,7 @@ static inline struct ow_walk_run run_of(const struct ow_walk *walk, uint32_t fir
 static inline struct ow_walk_run enter_switch(struct ow_walk *walk, uint32_t children_at,
                                               uint32_t coplanar)
 {
-    const uint8_t *bytes = walk->tree->bytes;
+    const ow_byte *bytes = walk->tree->bytes;
     int side = eye_side(walk->tree, walk->view, children_at + OW_SWITCH_CHILDREN_BYTES);
     bool front_first = (side > 0) == (walk->direction == OW_NEAREST_FIRST);
     uint32_t first_at = children_at + (front_first ? 0 : 4);

@@ -11,6 +11,8 @@
 #include "info.h"
 #include "locate_print.h"
 #include "ow_blob.h"
+#include "ow_view.h"
+#include "planes.h"
 #include "plot.h"
 #include "progress.h"
 #include "stats.h"
@@ -36,6 +38,7 @@ struct command {
     const char *planes_file;
     const char *plot;
     double locate[3];
+    uint32_t planes[2]; /* pixels */
     double conflict_weight;
     int method;
     int select;
@@ -50,6 +53,7 @@ struct command {
     bool repair;
     bool explain;
     bool locate_given;
+    bool planes_given;
     bool weight_given;
     bool strict;
     bool keep_ids;
@@ -170,6 +174,9 @@ static void parse(struct command *c, int argc, char **argv)
           .choices = normals },
         { "crease", 0, OPTION_DOUBLE, &c->crease, "DEG",
           "--normals compute: edges that turn by more stay sharp", .min = 0, .max = 180 },
+        { "planes", 0, OPTION_SIZE, c->planes, "WxH",
+          "write the tree as the bit planes of a frame buffer, a PGM", .max = OW_SCREEN_MAX,
+          .given = &c->planes_given, .no_default = true },
         { "stats", 0, OPTION_STRING, &c->stats, "FILE", "write statistics as JSON",
           .choices = NULL },
         { "plot", 0, OPTION_STRING, &c->plot, "FILE.svg", "draw the tree", .choices = NULL },
@@ -234,7 +241,11 @@ static void write_files(const struct command *c, const struct blob *blob,
     struct outfile *outs[3];
     size_t count = 0;
     outs[count++] = outfile_open(c->output);
-    fwrite(blob->bytes, 1, blob->size, outfile_stream(outs[0]));
+    if (c->planes_given) {
+        planes_write(outfile_stream(outs[0]), blob, c->planes);
+    } else {
+        fwrite(blob->bytes, 1, blob->size, outfile_stream(outs[0]));
+    }
     if (c->stats != NULL) {
         outs[count] = outfile_open(c->stats);
         stats_write(outs[count++], blob, stats, seconds);
@@ -265,6 +276,9 @@ static void compile(const struct command *c, const char *name, struct model *mod
                   "tree with --sides two");
     }
     warn_about(name, model);
+    if (c->planes_given) {
+        planes_check(&blob, c->planes, name);
+    }
     if (explained != NULL) {
         outfile_commit(explained);
     }

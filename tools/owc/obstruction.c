@@ -222,8 +222,7 @@ static void make_switch(struct builder *b, const struct obstruction_entry *entry
 
 /* ---- sequences ---- */
 
-static void put_chunk(struct builder *b, const tree_item *items, uint32_t count,
-                      struct place place)
+static void put_chunk(struct builder *b, const tree_item *items, uint32_t count, struct place place)
 {
     uint32_t node = tree_add_node(b->tree, MESH_NONE);
     for (uint32_t i = 0; i < count; i++) {
@@ -300,8 +299,8 @@ static bool build_round(struct builder *b, uint32_t threads, uint64_t most)
     b->tasks = NULL;
     b->task_count = b->task_capacity = 0;
     b->thoughts = xalloc(count, sizeof *b->thoughts);
-    b->planes->all = xgrow(b->planes->all, &b->planes->capacity,
-                           (size_t)b->planes->count + threads, sizeof *b->planes->all);
+    b->planes->all = xgrow(b->planes->all, &b->planes->capacity, (size_t)b->planes->count + threads,
+                           sizeof *b->planes->all);
     workers_run(threads, count, think, b);
     for (uint32_t i = 0; i < count; i++) {
         struct task *task = &b->round[i];

@@ -57,7 +57,8 @@ static double bits_of_half(const struct obstruction_set *set, const double norma
         *part = *face;
         part->first = points;
         if (places[i] == here) {
-            memcpy(half.points + points, set->points + face->first, face->count * sizeof *half.points);
+            memcpy(half.points + points, set->points + face->first,
+                   face->count * sizeof *half.points);
         } else {
             part->rough = true;
             part->count = cut_off(set, face, normal, offset, side, half.points + points);

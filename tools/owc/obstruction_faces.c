@@ -117,7 +117,8 @@ void obstruction_set_part(struct obstruction_set *part, const struct obstruction
     for (uint32_t i = 0; i < count; i++) {
         struct obstruction_face *face = &part->faces[i];
         *face = set->faces[faces[i]];
-        memcpy(part->points + points, set->points + face->first, face->count * sizeof *part->points);
+        memcpy(part->points + points, set->points + face->first,
+               face->count * sizeof *part->points);
         face->first = points;
         points += face->count;
     }

@@ -294,8 +294,8 @@ static uint32_t find_below(struct hierarchy *h, uint32_t face, enum hierarchy_wa
     uint32_t i = cursor->node;
     while (i < h->node_count) {
         const struct hierarchy_node *node = &h->nodes[i];
-        if (node->left == 0 ||
-            !(cursor->among_coplanar ? may_overlap(node, f) : hierarchy_may_hold(h, node, f, way))) {
+        if (node->left == 0 || !(cursor->among_coplanar ? may_overlap(node, f)
+                                                        : hierarchy_may_hold(h, node, f, way))) {
             i = node->next;
         } else if (!node->leaf) {
             i++;

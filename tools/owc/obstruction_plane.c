@@ -156,8 +156,8 @@ static double judge_whole(struct chooser *c, const struct candidate *candidate, 
     uint32_t counts[4];
     place_faces(c, candidate, c->places, UINT32_MAX, counts);
     double most = smaller(2 * limit * c->set->count + 8, UINT32_MAX);
-    double cuts = keeper_keep(&c->keeper, candidate->normal, candidate->offset, c->places,
-                              (uint32_t)most);
+    double cuts =
+        keeper_keep(&c->keeper, candidate->normal, candidate->offset, c->places, (uint32_t)most);
     if (cuts > most) {
         return INFINITY;
     }
@@ -369,7 +369,8 @@ static int compare_bounds(const void *left, const void *right)
 }
 
 /* The best place between two bounds; false if there is none. */
-static bool best_gap(const struct chooser *c, const struct bound *bounds, uint32_t count, double *at)
+static bool best_gap(const struct chooser *c, const struct bound *bounds, uint32_t count,
+                     double *at)
 {
     double best = INFINITY;
     uint32_t begun = 0;

@@ -126,8 +126,8 @@ void obstruction_think(struct obstruction_thought *thought, const struct obstruc
 {
     struct thinker t = { .thought = thought, .world = world };
     *thought = (struct obstruction_thought){ 0 };
-    obstruction_set_begin(&t.set, world->mesh, world->arrangement, world->pieces,
-                          world->tolerance, items, count);
+    obstruction_set_begin(&t.set, world->mesh, world->arrangement, world->pieces, world->tolerance,
+                          items, count);
     if (count >= MANY_FLAT && is_flat(&t.set)) {
         keep_file_order(&t);
     } else {

@@ -115,6 +115,7 @@ static void set_cut(struct run *run)
 static void scale_look(struct ow_look *look, const struct run *run)
 {
     const double *depth_cue = run->settings.depth_cue;
+    lights_scale(look, &run->settings.light_places, &run->tree);
     if (depth_cue[1] > 0) {
         look->depth_near = length_q8(depth_cue[0], &run->tree);
         look->depth_far = length_q8(depth_cue[1], &run->tree);
@@ -130,7 +131,7 @@ static void start_viewer(struct run *run)
     const struct settings *settings = &run->settings;
     struct ow_viewer_config *config = &run->config;
     run->clock = (struct ow_clock){ &sim_virtual_clock_ops, &run->time };
-    config->parts = &ow_parts_all;
+    config->parts = &settings->parts;
     config->tree = &run->tree.tree;
     config->look = settings->look;
     if (settings->cuts) {
@@ -183,9 +184,10 @@ static void print_stats(const struct run *run, double ms)
             "{\"frame\":%" PRIu32 ",\"ms\":%.6f,\"polygons_visited\":%" PRIu32
             ",\"polygons_painted\":%" PRIu32 ",\"polygons_dropped\":%" PRIu32
             ",\"pixels_written\":%" PRIu32 ",\"pixels_background\":%" PRIu32 ",\"spans\":%" PRIu32
-            "}\n",
+            ",\"lines_outgrown\":%" PRIu32 "}\n",
             run->viewer.frames - 1, ms, stats->polygons_visited, stats->polygons_painted,
-            stats->polygons_dropped, stats->pixels_written, stats->pixels_background, stats->spans);
+            stats->polygons_dropped, stats->pixels_written, stats->pixels_background, stats->spans,
+            stats->lines_outgrown);
 }
 
 static void add_stats(struct run *run)

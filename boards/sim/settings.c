@@ -10,11 +10,12 @@
 
 #include "bench.h"
 #include "output.h"
+#include "ow_surface.h"
 #include "sim/image.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 
-enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, ELEVATION_MAX = 89, ORBIT_MAX = 100000, OPTIONS_MOST = 64 };
+enum { ONE_Q8 = 256, ELEVATION_MAX = 89, ORBIT_MAX = 100000, OPTIONS_MOST = 64 };
 
 /* Names in the order of the core's enums where there is one; the rest is not there yet. */
 static const char *const orders[] = { "back-to-front", "front-to-back", "scanline", "auto", NULL };
@@ -22,6 +23,7 @@ static const char *const shades[] = { "id", "flat", "gouraud", "phong", "lines",
 static const char *const culls[] = { "auto", "back", "none", NULL };
 static const char *const maps[] = { "none", "heat", "cool", "spectrum", NULL };
 static const char *const coverages[] = { "none", "4x4", NULL };
+static const char *const unlits[] = { "bits", "segments", NULL };
 static const char *const panels[] = { "lend", "write", NULL };
 enum { ORDER_AUTO = 3, FORMATS_MOST = 31 };
 
@@ -39,6 +41,8 @@ static const char notes[] =
     "--views: nine numbers a line, eye, at, up, separated by blanks or commas; # is a comment.\n"
     "--script: one event a line, TIME CONTROL press|release|turn N|axis N; TIME in microseconds;\n"
     "  CONTROL left, right, up, down, in, out, select, knob1, knob2, knob3, axis-x, ...\n"
+    "--light x,y,z,SHARE or at:x,y,z,SHARE gives a light's own share; at: is a point in model\n"
+    "  units, from the eye or, with --light-in-model, in the model, as bright far away as near.\n"
     "--bench prints one line of JSON: times of drawing alone, counts summed over the frames.\n"
     "--compare: exit status 1 if a frame differs; writes NAME-actual and NAME-diff pictures.\n"
     "--dump-views: the exact integers that each view is drawn by, as JSON; 64-bit ones as text.\n";
@@ -51,6 +55,7 @@ struct raw {
     int format;
     int coverage;
     int map;
+    int unlit;
     int panel;
     uint64_t threads;
     const char *background;
@@ -63,7 +68,7 @@ struct raw {
     uint64_t budget;
     const char *cut;
     const char *cap;
-    double light[3];
+    struct option_list lights;
     bool light_in_model;
     bool has_orbit;
     bool has_up;
@@ -105,20 +110,6 @@ static uint32_t read_colour(const char *option, const char *text)
         settings_wrong("--%s takes six hexadecimal digits RRGGBB, not '%s'", option, text);
     }
     return (uint32_t)strtoul(text, &end, 16);
-}
-
-static void read_light(struct ow_light *light, const struct raw *raw)
-{
-    double length = sqrt(raw->light[0] * raw->light[0] + raw->light[1] * raw->light[1] +
-                         raw->light[2] * raw->light[2]);
-    if (!(length > 0) || !isfinite(length)) {
-        settings_wrong("--light takes the direction towards the light, not the zero vector");
-    }
-    for (int i = 0; i < 3; i++) {
-        light->direction_q14[i] = (int16_t)lround(raw->light[i] / length * ONE_Q14);
-    }
-    light->intensity_q8 = (uint16_t)lround((1 - raw->ambient) * ONE_Q8);
-    light->in_model_space = raw->light_in_model;
 }
 
 /* NEAR,FAR: two distances, 0 <= NEAR < FAR. */
@@ -194,8 +185,12 @@ static void read_look(struct settings *settings, const struct raw *raw)
     }
     look->caps = strcmp(raw->cap, "none") != 0;
     look->cap = look->caps ? read_colour("cap", raw->cap) : 0;
-    read_light(&look->light, raw);
+    lights_read(look, &settings->light_places, &raw->lights, 1 - raw->ambient, raw->light_in_model);
     settings->format = ow_formats[raw->format];
+    settings->parts = ow_parts_all;
+    if (raw->unlit != 0) {
+        settings->parts.dynamic = &ow_surface_segments;
+    }
     settings->panel = panel_kinds[raw->panel];
     check_look(settings, raw);
 }
@@ -293,7 +288,6 @@ static void set_defaults(struct settings *settings, struct raw *raw)
         .highlight = 0.4,
         .cap = "c05040",
         .shininess = 4,
-        .light = { -0.4, 0.6, 0.7 },
     };
 }
 
@@ -332,6 +326,9 @@ static size_t add_look(struct option_spec *to, struct raw *raw, const char *cons
 {
     const struct option_spec specs[] = {
         { "order", 0, OPTION_CHOICE, &raw->order, NULL, "the surface", .choices = orders },
+        { "unlit", 0, OPTION_CHOICE, &raw->unlit, NULL,
+          "what front-to-back knows of unlit pixels: same pictures, other times",
+          .choices = unlits },
         { "shade", 0, OPTION_CHOICE, &raw->shade, NULL, "id: the source polygon's number",
           .choices = shades },
         { "cull", 0, OPTION_CHOICE, &raw->cull, NULL, "auto: as the tree was built",
@@ -353,7 +350,7 @@ static size_t add_look(struct option_spec *to, struct raw *raw, const char *cons
         { "foreground", 0, OPTION_STRING, &raw->foreground, "RRGGBB",
           .help = "colour of --shade lines" },
         { "ambient", 0, OPTION_DOUBLE, &raw->ambient, "A",
-          "share of the light from everywhere, the rest is directional", .min = 0, .max = 1 },
+          "share of the light from everywhere; each --light has the rest", .min = 0, .max = 1 },
         { "highlight", 0, OPTION_DOUBLE, &raw->highlight, "A",
           "phong: share of white in its middle", .min = 0, .max = 1 },
         { "shininess", 0, OPTION_UNSIGNED, &raw->shininess, "N",
@@ -365,10 +362,11 @@ static size_t add_look(struct option_spec *to, struct raw *raw, const char *cons
         { "budget", 0, OPTION_UNSIGNED, &raw->budget, "N",
           "work units a band may take: faces met and 16s of pixels; 0: no end (front-to-back)",
           .max = UINT32_MAX },
-        { "light", 0, OPTION_VECTOR, raw->light, "x,y,z",
-          .help = "towards the light: right, up, to the viewer" },
+        { "light", 0, OPTION_LIST, &raw->lights, "x,y,z",
+          "towards a light: right, up, to the viewer (-0.4,0.6,0.7), or at:x,y,z; up to 8",
+          .max = OW_LIGHTS_MAX },
         { "light-in-model", 0, OPTION_FLAG, &raw->light_in_model, NULL,
-          .help = "--light is along the model's axes instead" },
+          .help = "each --light is along the model's axes instead" },
     };
     memcpy(to, specs, sizeof specs);
     return sizeof specs / sizeof specs[0];

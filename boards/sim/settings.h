@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "ow_draw.h"
+#include "lights.h"
 #include "sim/sim_panel.h"
 
 struct settings {
@@ -28,8 +29,10 @@ struct settings {
     const char *script; /* file or NULL */
 
     struct ow_look look;
+    struct light_places light_places;
     double depth_cue[2]; /* model units; both 0: none */
     const struct ow_pixel_format *format;
+    struct ow_parts parts;
     enum sim_panel_kind panel;
     uint32_t threads;
     bool cuts;

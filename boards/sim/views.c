@@ -242,6 +242,10 @@ void views_dump(FILE *stream, uint32_t frame, const struct ow_view *view)
     fprintf(stream, "\"near_z\":%" PRId32 ",\"limit\":%" PRId32 ",", view->near_z, view->limit);
     fprintf(stream, "\"scale_mantissa\":%" PRIu32 ",\"scale_exponent\":%" PRId32 ",",
             view->scale.mantissa, view->scale.exponent);
+    if (view->cuts) {
+        dump_vector(stream, "cut_q20", view->cut_q20);
+        fprintf(stream, "\"cut_offset\":\"%" PRId64 "\",", view->cut_offset);
+    }
     fprintf(stream, "\"width\":%u,\"height\":%u,\"camera_shift\":%u,\"projection\":\"%s\"}",
             view->width, view->height, view->camera_shift,
             view->projection == OW_PARALLEL ? "parallel" : "perspective");

@@ -35,7 +35,15 @@ static bool parts_are_there(const struct ow_parts *parts, const struct ow_look *
     bool order = look->order == OW_BACK_TO_FRONT   ? parts->painter != NULL
                  : look->order == OW_FRONT_TO_BACK ? parts->dynamic != NULL
                                                    : parts->scan_line != NULL;
-    return order && (!look->coverage || parts->coverage != NULL) &&
+    bool lights = parts->point != NULL;
+    for (uint32_t i = 0; i < look->light_count && !lights; i++) {
+        if (look->lights[i].at_point) {
+            return false;
+        }
+    }
+    return order && parts->shading[look->shade] != NULL &&
+           (!ow_look_has_effect(look) || parts->effect != NULL) &&
+           (!look->coverage || parts->coverage != NULL) &&
            (look->shade != OW_SHADE_LINES || parts->lines != NULL) &&
            (!look->dither || parts->dither != NULL);
 }
@@ -91,7 +99,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     if (parts->skip != NULL) {
         parts->skip->begin(frame);
     }
-    ow_shader_make(&frame->shader, look, view);
+    ow_shader_make(&frame->shader, parts, look, view);
     frame->shader.caps = frame->shader.caps && (tree->flags & OW_TREE_CLOSED);
     enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
@@ -115,7 +123,6 @@ void ow_frame_aim(struct ow_frame *frame, const struct ow_surface_kind *kind,
     frame->window.end_line = target->first_line + target->line_count;
     frame->background = target->format->pack(frame->look->background);
     surface->target = target;
-    surface->top = (uintptr_t)target->pixels - (uintptr_t)target->first_line * target->stride;
     surface->width = frame->view->width;
     surface->unlit = workspace->unlit;
     surface->open_pixels = workspace->open_pixels;
@@ -212,6 +219,7 @@ enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_targ
             .spans = frame->surface.spans_written,
             .nodes_skipped = frame->skipped,
             .polygons_unlisted = frame->unlisted,
+            .lines_outgrown = frame->surface.lines_outgrown,
             .polygons_dropped = frame->dropped,
         };
     }

@@ -19,8 +19,8 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
         workspace->clip[0][i] = ow_to_camera(frame->tree, frame->view, vertex);
         workspace->clip[0][i].marked = marks && frame->faces->leaves_out(frame, i);
         if (smooth) {
-            workspace->clip[0][i].light =
-                ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse);
+            ow_shade_corner(&frame->shader, frame->tree, vertex, face->reverse,
+                            &workspace->clip[0][i].light);
         }
     }
     uint32_t which;
@@ -93,8 +93,8 @@ static void begin_gradient(struct ow_frame *frame)
     if (!frame->clipped) {
         for (uint32_t i = 0; i < frame->points; i++) {
             uint32_t from = face->reverse ? frame->points - 1 - i : i;
-            workspace->corner_lights[i] = ow_shade_corner(
-                &frame->shader, frame->tree, ow_corner(frame->tree, face->at, from), face->reverse);
+            ow_shade_corner(&frame->shader, frame->tree, ow_corner(frame->tree, face->at, from),
+                            face->reverse, &workspace->corner_lights[i]);
         }
     }
     ow_gradient_begin(&frame->gradient, workspace->outline, workspace->corner_lights, frame->points,

@@ -115,7 +115,7 @@ static struct crossing cross_edge(const struct ow_gradient *g, uint32_t i, ow_su
     uint32_t height = (uint32_t)(b->y - a->y); /* below 2^21 */
     uint32_t coarser = height >> 18 ? 3 : 0;
     int64_t share = ((uint32_t)(y - a->y) >> coarser << 13) / (height >> coarser);
-    struct crossing c = { a->x + (ow_sub8)(((b->x - a->x) * share) >> 13), { 0, 0, 0, 0 } };
+    struct crossing c = { a->x + (ow_sub8)(((b->x - a->x) * share) >> 13), { 0 } };
     for (uint32_t k = 0; k < g->parts; k++) {
         int32_t from = g->lights[top].part[k];
         c.part[k] = from + (int32_t)(((g->lights[bottom].part[k] - from) * share) >> 13);
@@ -143,8 +143,8 @@ static void find_ends(const struct ow_gradient *g, ow_sub8 y, struct crossing *l
 /* The ramp through the outermost two crossings of the line. */
 static void span_line(struct ow_gradient *g, ow_sub8 y)
 {
-    struct crossing left = { 1, { 0, 0, 0, 0 } };
-    struct crossing right = { 0, { 0, 0, 0, 0 } };
+    struct crossing left = { 1, { 0 } };
+    struct crossing right = { 0, { 0 } };
     find_ends(g, y, &left, &right);
     g->left = left.x;
     g->right_end = right.x;

@@ -8,7 +8,8 @@ bool ow_look_fits(const struct ow_look *look, const struct ow_workspace *workspa
     if (!no_depth && (look->depth_near < 0 || look->depth_far <= look->depth_near)) {
         return false;
     }
-    if ((uint32_t)look->map > OW_MAP_SPECTRUM || (uint32_t)look->shade > OW_SHADE_LINES) {
+    if (look->light_count > OW_LIGHTS_MAX || (uint32_t)look->map > OW_MAP_SPECTRUM ||
+        (uint32_t)look->shade > OW_SHADE_LINES) {
         return false;
     }
     if (look->budget > 0 && look->order != OW_FRONT_TO_BACK) {

@@ -47,6 +47,18 @@ static inline uint32_t ow_next_bit(const uint32_t *words, uint32_t from, uint32_
     return x < end ? x : end;
 }
 
+static inline void ow_set_bits(uint32_t *words, uint32_t first, uint32_t end)
+{
+    uint32_t w = first / 32;
+    uint32_t last = (end - 1) / 32;
+    uint32_t mask = ow_bits_from(first & 31);
+    for (; w < last; w++) {
+        words[w] |= mask;
+        mask = 0xFFFFFFFFu;
+    }
+    words[last] |= mask & ow_bits_to((end - 1) & 31);
+}
+
 static inline void ow_clear_bits(uint32_t *words, uint32_t first, uint32_t end)
 {
     uint32_t w = first / 32;

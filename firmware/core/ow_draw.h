@@ -24,14 +24,6 @@ enum ow_order {
     OW_SCAN_LINE      /* priority scan line: one line at a time, no frame buffer [FKN80] */
 };
 
-enum ow_shade {
-    OW_SHADE_ID,      /* the source polygon's number as a colour, no light */
-    OW_SHADE_FLAT,    /* one colour a face: ambient and directional light */
-    OW_SHADE_GOURAUD, /* intensity interpolated between the corners; needs vertex normals */
-    OW_SHADE_PHONG,   /* normals interpolated, with a highlight; needs vertex normals */
-    OW_SHADE_LINES    /* outlines in the foreground's colour, faces in the background's */
-};
-
 /* What becomes of a face's intensity. */
 enum ow_map {
     OW_MAP_NONE,    /* it scales the material's colour */
@@ -40,11 +32,18 @@ enum ow_map {
     OW_MAP_SPECTRUM /* blue, green, yellow, red: levels can be told apart */
 };
 
-/* Lengths and directions: right, up, towards the viewer; or the model's axes. */
+enum { OW_LIGHTS_MAX = 8 }; /* of a look */
+
+/*
+ * A light: from a direction, or at a point. In model space or along right, up,
+ * towards the viewer; then a point's place counts from the eye.
+ */
 struct ow_light {
     int16_t direction_q14[3]; /* unit vector towards the light, 14 fraction bits */
     uint16_t intensity_q8;    /* 256: a face square to the light shows its colour in full */
     bool in_model_space;      /* false: the light moves with the viewer */
+    bool at_point;            /* not from a direction: as bright far away as near by */
+    ow_q8 place[3];           /* of a point, lattice steps within OW_EYE_MAX */
 };
 
 /*
@@ -75,7 +74,8 @@ struct ow_look {
     enum ow_cull cull;
     uint32_t background; /* 0x00RRGGBB; OW_SHADE_ID: packed as it is */
     uint16_t ambient_q8; /* 256: all faces show their colour in full */
-    struct ow_light light;
+    struct ow_light lights[OW_LIGHTS_MAX];
+    uint8_t light_count; /* 0: ambient light alone */
     /* OW_SHADE_PHONG: the highlight's strength, 256 adds full white in its middle; 0: none. */
     uint16_t specular_q8;
     uint8_t shininess; /* the highlight's exponent is 2^shininess; 0 .. 7 */
@@ -134,6 +134,7 @@ struct ow_stats {
     uint32_t spans;             /* runs of pixels written by the model */
     uint32_t nodes_skipped;     /* bounded nodes out of view, facing away or covered */
     uint32_t polygons_unlisted; /* scan line order: no room in the list; lines then walk anew */
+    uint32_t lines_outgrown;    /* ow_surface_segments: lines whose list became bits */
     uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
 };
 

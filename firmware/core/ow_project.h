@@ -13,11 +13,10 @@
 #include "ow_read.h"
 
 /*
- * What smooth shading interpolates: Gouraud's intensity (65536 is full), or
- * Phong's normal, 8128 times the unit vector; then, with a depth cue, the share
- * of the colour that is seen (65536 is all).
+ * What smooth shading interpolates: the shading's own parts; then, with a depth
+ * cue, the share of the colour that is seen (65536 is all).
  */
-enum { OW_LIGHT_PARTS = 4 };
+enum { OW_LIGHT_PARTS = 5 };
 
 struct ow_corner_light {
     int32_t part[OW_LIGHT_PARTS];
@@ -60,7 +59,7 @@ static inline struct ow_camera_point ow_lattice_to_camera(const struct ow_view *
         (int32_t)((view->forward[0] * x + view->forward[1] * y + view->forward[2] * z +
                    view->offset[2]) >>
                   shift),
-        { { 0, 0, 0, 0 } },
+        { { 0 } },
         false,
     };
 }

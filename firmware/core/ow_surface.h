@@ -26,7 +26,6 @@ struct ow_surface {
     const struct ow_backdrop *backdrop; /* NULL: one colour */
     const struct ow_differences *difference;
     struct ow_changes *changes; /* to be marked at writing; NULL: nobody asks, or all were marked */
-    uintptr_t top;              /* where line 0 of the view would begin in the target */
     uint32_t width;
     uint32_t rgb;    /* of the face being scanned; the material's if it is smooth */
     uint32_t colour; /* the same packed, if it is not smooth */
@@ -46,9 +45,10 @@ struct ow_surface {
     struct ow_samples *samples; /* coverage: of each pixel */
     uint32_t *sampled;          /* coverage: a bit for each pixel that has a sample */
     uint32_t words_in_line;
-    uint32_t lines_open;   /* lines with unlit pixels; 0: nothing more can be seen */
-    uint16_t *open_pixels; /* unlit pixels of each line */
-    uint32_t *open_tiles;  /* a bit for each tile that may have any */
+    uint32_t lines_open;     /* lines with unlit pixels; 0: nothing more can be seen */
+    uint16_t *open_pixels;   /* unlit pixels of each line */
+    uint32_t *open_tiles;    /* a bit for each tile that may have any */
+    uint32_t lines_outgrown; /* segments: lines whose list became bits */
 };
 
 /*
@@ -81,6 +81,7 @@ struct ow_surface_kind {
 
 extern const struct ow_surface_kind ow_surface_painter;
 extern const struct ow_surface_kind ow_surface_dynamic;
+extern const struct ow_surface_kind ow_surface_segments;
 
 static inline uint8_t *ow_line_pixels(const struct ow_target *target, uint32_t line)
 {
@@ -122,6 +123,23 @@ static inline void ow_write_run(struct ow_surface *surface, uint32_t line, uint3
     }
     surface->pixels_written += end - first;
     surface->spans_written++;
+}
+
+/* The same for count spans. */
+static inline void ow_write_spans(struct ow_surface *surface, const struct ow_span *spans,
+                                  uint32_t count)
+{
+    const struct ow_target *target = surface->target;
+    if (surface->write == NULL && target->format->fill_spans != NULL) {
+        surface->pixels_written += target->format->fill_spans(
+            (uintptr_t)target->pixels - (uintptr_t)target->first_line * target->stride,
+            target->stride, spans, count, surface->colour);
+        surface->spans_written += count;
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        ow_write_run(surface, spans[i].line, spans[i].first, spans[i].end);
+    }
 }
 
 #endif

@@ -6,16 +6,6 @@
 
 enum { CHUNK = 32 }; /* pixels shaded before they are stored */
 
-static uint32_t shade_pixel(const struct ow_surface *surface, uint32_t x)
-{
-    const struct ow_gradient *gradient = surface->gradient;
-    struct ow_corner_light light;
-    for (uint32_t i = 0; i < gradient->parts; i++) {
-        light.part[i] = ow_ramp_value(&gradient->ramp[i], x);
-    }
-    return ow_shade_pixel(surface->shader, surface->rgb, &light);
-}
-
 uint32_t ow_smooth_pixel(struct ow_surface *surface, uint32_t line, uint32_t x)
 {
     if (surface->gradient->line != (int32_t)line) {
@@ -36,9 +26,8 @@ static void write_smooth(struct ow_surface *surface, uint32_t line, uint32_t fir
     }
     while (first < end) {
         uint32_t stop = end - first > CHUNK ? first + CHUNK : end;
-        for (uint32_t x = first; x < stop; x++) {
-            rgb[x - first] = shade_pixel(surface, x);
-        }
+        surface->shader->shading->run(surface->shader, surface->rgb, surface->gradient->ramp, first,
+                                      stop, rgb);
         if (surface->dither != NULL) {
             surface->dither->store(format, row, line, first, stop, rgb);
         } else {

@@ -19,21 +19,6 @@ static void begin(struct ow_surface *surface, uint32_t background)
     surface->lines_open = target->line_count; /* for ever: what is painted can be painted over */
 }
 
-static void take(struct ow_surface *surface, const struct ow_span *spans, uint32_t count)
-{
-    const struct ow_target *target = surface->target;
-    if (surface->write == NULL && target->format->fill_spans != NULL) {
-        surface->pixels_written +=
-            target->format->fill_spans(surface->top, target->stride, spans, count, surface->colour);
-        surface->spans_written += count;
-        return;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const struct ow_span *span = &spans[i];
-        ow_write_run(surface, span->line, span->first, span->end);
-    }
-}
-
 static void end(struct ow_surface *surface, uint32_t background)
 {
     (void)surface;
@@ -43,6 +28,6 @@ static void end(struct ow_surface *surface, uint32_t background)
 const struct ow_surface_kind ow_surface_painter = {
     .direction = OW_FARTHEST_FIRST,
     .begin = begin,
-    .take = take,
+    .take = ow_write_spans,
     .end = end,
 };

@@ -65,6 +65,7 @@ static void add_stats(struct ow_stats *sum, const struct ow_stats *part)
     sum->spans += part->spans;
     sum->nodes_skipped += part->nodes_skipped;
     sum->polygons_unlisted += part->polygons_unlisted;
+    sum->lines_outgrown += part->lines_outgrown;
     sum->polygons_dropped += part->polygons_dropped;
 }
 

@@ -63,13 +63,19 @@ static void turn_view(struct ow_view *view)
     view->height = width;
 }
 
-/* A light that moves with the viewer is given along the view's axes. */
-static void turn_light(struct ow_light *light)
+/* Lights that move with the viewer are given along the view's axes. */
+static void turn_lights(struct ow_look *look)
 {
-    if (!light->in_model_space) {
-        int16_t right = light->direction_q14[0];
-        light->direction_q14[0] = light->direction_q14[1];
-        light->direction_q14[1] = (int16_t)-right;
+    for (uint8_t i = 0; i < look->light_count; i++) {
+        struct ow_light *light = &look->lights[i];
+        if (!light->in_model_space) {
+            int16_t right = light->direction_q14[0];
+            light->direction_q14[0] = light->direction_q14[1];
+            light->direction_q14[1] = (int16_t)-right;
+            ow_q8 place = light->place[0];
+            light->place[0] = light->place[1];
+            light->place[1] = -place;
+        }
     }
 }
 
@@ -87,7 +93,7 @@ int viewer_make_view(struct ow_viewer *viewer)
     viewer->look = viewer->config.look;
     for (uint8_t i = 0; status == OW_OK && i < viewer->turned; i++) {
         turn_view(&viewer->view);
-        turn_light(&viewer->look.light);
+        turn_lights(&viewer->look);
     }
     if (status == OW_OK && viewer->config.cuts) {
         status = ow_view_cut(&viewer->view, viewer->config.cut_normal, viewer->config.cut_distance);

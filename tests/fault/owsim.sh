@@ -76,6 +76,13 @@ usage "size too large" "size" "$tree" --size 4097x5 -o "$out"
 usage "field of view" "fov" "$tree" --fov 171 -o "$out"
 usage "background" "background" "$tree" --background blue -o "$out"
 usage "no light" "zero vector" "$tree" --light 0,0,0 -o "$out"
+usage "half a light" "x,y,z" "$tree" --light at:1,2 -o "$out"
+usage "a light of words" "x,y,z" "$tree" --light 1,2,3,bright -o "$out"
+usage "a light below none" "share" "$tree" --light 1,2,3,-1 -o "$out"
+usage "a light too far" "farther" "$tree" --light at:1,2,1e9 -o "$out"
+usage "nine lights" "8 times" "$tree" -o "$out" \
+    --light 1,2,3 --light 1,2,3 --light 1,2,3 --light 1,2,3 --light 1,2,3 --light 1,2,3 \
+    --light 1,2,3 --light 1,2,3 --light 1,2,3
 usage "a dangerous pattern" "%d" "$tree" -o "$dir/out/%s.ppm"
 usage "two numbers" "only once" "$tree" -o "$dir/out/%d%d.ppm"
 usage "unknown picture format" "ppm or .png" "$tree" -o "$dir/out/f.jpg"

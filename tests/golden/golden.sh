@@ -64,6 +64,12 @@ atoms-gouraud: atoms: --normals compute: --orbit 4 --size 160x120 --shade gourau
 atoms-phong: =atoms-gouraud: : --orbit 4 --size 161x120 --shade phong --format rgb332 --dither
 atoms-phong-aa: =atoms-gouraud: : --orbit 2 --size 160x120 --shade phong --aa 4x4
     --depth-cue 5,11 --map heat
+atoms-lights: =atoms-gouraud: : --orbit 4 --size 160x120 --shade phong --light at:0,3,0,0.5
+    --light 1,0,0,0.3 --light at:-4,0,-5
+atoms-lights-gouraud: =atoms-gouraud: : --orbit 2 --size 160x120 --shade gouraud
+    --light at:0,3,0,0.5 --light 1,0,0,0.3 --light-in-model
+atoms-lights-flat: =atoms-gouraud: : --orbit 2 --size 160x120 --light at:0,3,0,0.5
+    --light 1,0,0,0.3 --light-in-model
 robot: robot: --keep-ids: --orbit 8 --size 160x120
 vise: vise: --keep-ids: --orbit 8 --size 160x120
 house: house: --keep-ids: --orbit 8 --size 160x120

@@ -3,7 +3,7 @@
  * The oracle's command line, and the rule by which it judges.
  *
  *   oracle MODEL TREE.owt --views views.json --frames 'frame-%04d.ppm' [--sides one|two]
- *          [--diff DIR]
+ *          [--diff DIR] [--caps CAP,BACKGROUND]
  *   oracle MODEL TREE.owt --near-views N      prints eyes for owsim --views
  *   oracle --self-test
  *
@@ -11,8 +11,8 @@
  * the tree's header, takes owsim's quantised cameras (owsim --dump-views) and
  * draws each view with a z-buffer in double precision: polygons whole, coverage
  * by the winding number at the point, depth by the polygon's plane, clipped by
- * the near plane, backs left out where the tree is one-sided. Nothing of the
- * core's rounding is imitated.
+ * the near plane, backs left out where the tree is one-sided. A cutting plane is
+ * taken from the views and clips alike. Nothing of the core's rounding is imitated.
  *
  * Each pixel of a frame of `owsim --shade id` is judged at its centre c:
  *
@@ -33,6 +33,11 @@
  *   oracle shows background at one of the eight neighbours' centres or at one of
  *   33 x 33 points between them, or, where a lattice step is larger than a pixel,
  *   at a point within the projected step. Otherwise it is a hole.
+ *
+ * With --caps (two colours RRGGBB) the frames show materials in full (--ambient 1),
+ * and the cap of a closed model that is cut open in its own colour: where the
+ * oracle shows the back of some polygon. Each pixel is judged by the same rules,
+ * its polygon being `some front` or `some back`.
  *
  * Two kinds of pixels fail this and are right all the same; they are counted apart:
  *
@@ -93,12 +98,15 @@ struct request {
     const char *model, *tree, *views, *frames, *diff;
     uint32_t near_views;
     int sides; /* 0 as the tree, 1, 2 */
+    enum tells tells;
+    uint32_t cap, background; /* TELLS_SIDE: 0x00RRGGBB */
 };
 
 static _Noreturn void usage(void)
 {
     fputs("usage: oracle MODEL TREE.owt --views FILE --frames PATTERN [--sides one|two] "
-          "[--diff DIR]\n       oracle MODEL TREE.owt --near-views N\n       oracle --self-test\n",
+          "[--diff DIR] [--caps CAP,BACKGROUND]\n       oracle MODEL TREE.owt --near-views N\n     "
+          "  oracle --self-test\n",
           stderr);
     exit(2);
 }
@@ -126,6 +134,10 @@ static struct request parse(int argc, char **argv)
             r.near_views = (uint32_t)strtoul(value, NULL, 10);
         } else if (strcmp(a, "--sides") == 0) {
             r.sides = strcmp(value, "two") == 0 ? 2 : 1;
+        } else if (strcmp(a, "--caps") == 0 && strlen(value) == 13 && value[6] == ',') {
+            r.tells = TELLS_SIDE;
+            r.cap = (uint32_t)strtoul(value, NULL, 16);
+            r.background = (uint32_t)strtoul(value + 7, NULL, 16);
         } else {
             usage();
         }
@@ -192,8 +204,13 @@ static struct verdict judge_view(const struct request *r, const struct model *mo
     if (width != camera->width || height != camera->height) {
         stop(name, "the frame is not of the view's size");
     }
+    if (r->tells == TELLS_SIDE) {
+        for (size_t i = 0; i < (size_t)width * height; i++) {
+            frame[i] = frame[i] == r->background ? 0 : frame[i] == r->cap ? SIDE_BACK : SIDE_FRONT;
+        }
+    }
     struct scene scene;
-    scene_make(&scene, model, camera, r->sides ? r->sides == 2 : lattice->two_sided);
+    scene_make(&scene, model, camera, r->sides ? r->sides == 2 : lattice->two_sided, r->tells);
     uint8_t *difference = r->diff ? need((size_t)width * height, 3) : NULL;
     struct verdict verdict;
     judge(&scene, frame, fmax(2, 2 * lattice->tolerance), &verdict, difference);

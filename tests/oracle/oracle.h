@@ -65,13 +65,24 @@ struct camera {
     uint32_t width;
     uint32_t height;
     bool parallel;
+    bool cuts; /* what is drawn: cut.p + cut_offset >= 0, camera axes, lattice units */
+    struct vec cut;
+    double cut_offset;
 };
+
+/* What the pixels of a frame say. */
+enum tells {
+    TELLS_ID,  /* the polygon's number */
+    TELLS_SIDE /* SIDE_FRONT or SIDE_BACK of some polygon: a cap shows where backs would */
+};
+
+enum { SIDE_FRONT = 1, SIDE_BACK = 2 };
 
 /* A polygon as one view shows it. Outline: pixels, y down. */
 struct shape {
     uint32_t first; /* of the scene's outline points */
     uint32_t count;
-    uint32_t id;
+    uint32_t id; /* the source polygon's number, or its side: whatever the frame tells */
     double slack;
     struct vec normal; /* unit, camera axes, lattice units */
     double offset;     /* normal.p + offset = 0 */
@@ -85,7 +96,7 @@ struct shape {
 /* A corner of an outline, and the edge from it to the next. */
 struct spot {
     double x, y;
-    uint32_t corner; /* of the model, where the edge comes from; CUT: the near plane cut it */
+    uint32_t corner; /* of the model, where the edge comes from; CUT: a plane cut it */
     bool rim;        /* no other polygon that is drawn has this edge */
 };
 
@@ -96,6 +107,7 @@ struct scene {
     const struct camera *camera;
     const struct model *model;
     bool two_sided;
+    enum tells tells;
     struct shape *shapes;
     size_t shape_count;
     struct spot *spots;
@@ -151,7 +163,7 @@ int near_views_print(const struct model *model, const struct lattice *lattice, u
 
 /* scene.c */
 void scene_make(struct scene *scene, const struct model *model, const struct camera *camera,
-                bool two_sided);
+                bool two_sided, enum tells tells);
 void scene_free(struct scene *scene);
 int shape_winding(const struct scene *scene, const struct shape *shape, double x, double y);
 bool shape_covers(const struct scene *scene, const struct shape *shape, double x, double y);

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: 0BSD
 # run.sh [--all]: owsim's pictures against the oracle, models of owgen and of ../shared/models:
-# 8 views of the orbit, and 8 views inside and very near the surface.
+# 8 views of the orbit, and 8 views inside and very near the surface; closed models cut open by
+# planes through their middle, as polygons and with caps.
 # Without --all: what fits in about a minute. With it: every model at 320x240 and 640x480.
 # Prints ok, not ok and skip lines. What was wrong stays in $O/tests/oracle-wrong.
 set -uo pipefail
@@ -26,11 +27,15 @@ result() { # STATUS NAME TEXT
 
 # judge NAME MODEL TREE OPTIONS...: draws with the options and has it judged.
 judge() {
-    local name=$1 model=$2 tree=$3 status=0 said sides=()
+    local name=$1 model=$2 tree=$3 status=0 said sides=() shade=(--shade id)
     shift 3
     [[ " $* " == *" --cull none "* ]] && sides=(--sides two)
+    if [[ " $* " == *" --cap $cap "* ]]; then
+        shade=(--shade flat --ambient 1 --background "$background")
+        sides=(--caps "$cap,$background")
+    fi
     rm -f "$work"/frame-*.ppm "$work"/difference-*.ppm
-    if ! said=$("$O/owsim" "$tree" --shade id --dump-views "$work/views.json" \
+    if ! said=$("$O/owsim" "$tree" "${shade[@]}" --dump-views "$work/views.json" \
         -o "$work/frame-%04d.ppm" "$@" 2>&1); then
         result 1 "$name" "owsim: $said"
         return
@@ -62,6 +67,44 @@ model() {
         judge "$name near $size" "$model" "$work/tree.owt" --views "$work/near.txt" --size "$size"
         judge "$name near, both sides, $size" "$model" "$work/tree.owt" \
             --views "$work/near.txt" --size "$size" --cull none --order back-to-front
+    done
+}
+
+# The cap's colour and another one, which no model has.
+cap=fe01fe background=010203
+
+# cut NAME MODEL SIZE CUTS [OWC-OPTIONS]: cuts a closed model in so many ways and judges it.
+cut() {
+    local name=$1 model=$2 size=$3 cuts=$4 said middle=() n d
+    shift 4
+    if ! said=$("$O/owc" "$model" --keep-ids --sides two "$@" -o "$work/tree.owt" 2>&1); then
+        result 1 "$name" "owc: $said"
+        return
+    fi
+    if [[ $("$O/owc" --info "$work/tree.owt") != *"closed model"* ]]; then
+        result 1 "$name" "is not closed: it cannot have caps"
+        return
+    fi
+    "$O/tests/oracle" "$model" "$work/tree.owt" --near-views 8 >"$work/near.txt" || failed=1
+    read -ra middle < <(awk '$1 == "v" { for (i = 2; i < 5; i++) {
+            if (!(i in low) || $i + 0 < low[i]) low[i] = $i + 0
+            if (!(i in high) || $i + 0 > high[i]) high[i] = $i + 0 } }
+        END { print (low[2] + high[2]) / 2, (low[3] + high[3]) / 2, (low[4] + high[4]) / 2 }' \
+        "$model")
+    for n in $(head -n "$cuts" <<<"0.3,0.2,-1
+1,0.1,0.35
+0,-1,0
+-0.5,0.7,0.6"); do
+        d=$(awk -v n="$n" -v m="${middle[*]}" 'BEGIN { split(n, a, ","); split(m, b, " ")
+            printf "%.6f", a[1] * b[1] + a[2] * b[2] + a[3] * b[3] }')
+        judge "$name cut $n" "$model" "$work/tree.owt" --orbit 8 --size "$size" --cut "$n,$d" \
+            --cap none
+        judge "$name cut $n, near" "$model" "$work/tree.owt" --views "$work/near.txt" \
+            --size "$size" --cut "$n,$d" --cap none
+        judge "$name cut $n, caps" "$model" "$work/tree.owt" --orbit 8 --size "$size" \
+            --cut "$n,$d" --cap $cap
+        judge "$name cut $n, near, caps" "$model" "$work/tree.owt" --views "$work/near.txt" \
+            --size "$size" --cut "$n,$d" --cap $cap
     done
 }
 
@@ -110,6 +153,27 @@ for name in $light; do
         model "$name" "$shared/$name.obj" $sizes
     else
         echo "skip $name: models outside the repository (../shared/models)"
+    fi
+done
+
+cuts=2
+[ $all = 1 ] && cuts=4
+for kind in "oldwell --detail low" house robot; do
+    # shellcheck disable=SC2086 # the options are words
+    if "$O/owgen" $kind -o "$work/model.obj"; then
+        cut "${kind%% *}" "$work/model.obj" 320x240 $cuts
+        cut "${kind%% *} bsp" "$work/model.obj" 320x240 $cuts --method bsp
+    else
+        result 1 "${kind%% *}" "owgen fails"
+    fi
+done
+light="cow"
+[ $all = 1 ] && light="cow spot fandisk"
+for name in $light; do
+    if [ -e "$shared/$name.obj" ]; then
+        cut "$name" "$shared/$name.obj" 320x240 $cuts
+    else
+        echo "skip $name cut open: models outside the repository (../shared/models)"
     fi
 done
 [ $failed = 0 ]

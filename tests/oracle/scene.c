@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: 0BSD */
 /*
- * One view in double precision: polygons on the screen, clipped by the near
- * plane; bins that say which polygons may cover a point; the z-buffer at pixel
+ * One view in double precision: polygons on the screen, clipped by the
+ * near plane and the cutting plane; bins that say which polygons may cover a point; the z-buffer at pixel
  * centres. Coverage is the winding number of the outline at the point, which
  * also decides facing; depth comes from the polygon's plane.
  */
@@ -26,22 +26,40 @@ struct kept {
     uint32_t corner;
 };
 
-static uint32_t clip_near(const struct vec *in, uint32_t count, uint32_t first_corner,
-                          double near_z, struct kept *out)
+/* Keeps where normal.p + offset >= 0. */
+static uint32_t clip(const struct kept *in, uint32_t count, struct vec normal, double offset,
+                     struct kept *out)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
-        struct vec a = in[i], b = in[(i + 1) % count];
-        if (a.z >= near_z) {
-            out[n++] = (struct kept){ a, first_corner + i };
+        struct vec a = in[i].at, b = in[(i + 1) % count].at;
+        double from = vec_dot(normal, a) + offset, to = vec_dot(normal, b) + offset;
+        if (from >= 0) {
+            out[n++] = in[i];
         }
-        if ((a.z >= near_z) != (b.z >= near_z)) {
-            double t = (near_z - a.z) / (b.z - a.z);
-            out[n].at = (struct vec){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), near_z };
-            out[n++].corner = a.z >= near_z ? CUT : first_corner + i;
+        if ((from >= 0) != (to >= 0)) {
+            double t = from / (from - to);
+            out[n].at =
+                (struct vec){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z) };
+            out[n++].corner = from >= 0 ? CUT : in[i].corner;
         }
     }
     return n;
+}
+
+/* By the near plane and the cutting plane, in place; other: as large as kept. */
+static uint32_t clip_shape(const struct camera *c, struct kept *kept, uint32_t count,
+                           struct kept *other)
+{
+    if (!c->parallel) {
+        count = clip(kept, count, (struct vec){ 0, 0, 1 }, -c->near_z, other);
+        memcpy(kept, other, count * sizeof *kept);
+    }
+    if (c->cuts && count > 0) {
+        count = clip(kept, count, c->cut, c->cut_offset, other);
+        memcpy(kept, other, count * sizeof *kept);
+    }
+    return count;
 }
 
 /* The plane by Newell's method about the first corner; false for a polygon without area. */
@@ -73,7 +91,7 @@ static struct spot project(const struct camera *c, struct kept k)
                           true };
 }
 
-static void set_bounds(struct shape *s, const struct spot *spots, bool two_sided)
+static void set_bounds(struct shape *s, const struct spot *spots, bool two_sided, enum tells tells)
 {
     double area = 0, perimeter = 0;
     s->x_min = s->y_min = INFINITY;
@@ -90,15 +108,21 @@ static void set_bounds(struct shape *s, const struct spot *spots, bool two_sided
     /* Mean width: the area is at most half the perimeter times that. */
     s->thin = fabs(area) / 2 <= perimeter / 2 * ROUNDING;
     s->facing = two_sided || s->thin || area < 0; /* y runs down: counter-clockwise is negative */
+    if (tells == TELLS_SIDE) {
+        s->id = area < 0 ? SIDE_FRONT : SIDE_BACK;
+    }
 }
 
-static void add_shape(struct scene *scene, uint32_t number, struct vec *work, struct kept *kept)
+/* kept: two rows with room for each corner four times. */
+static void add_shape(struct scene *scene, uint32_t number, struct vec *work,
+                      struct kept *const kept[2])
 {
     const struct camera *c = scene->camera;
     const struct model *m = scene->model;
     const struct polygon *p = &m->polygons[number];
     for (uint32_t i = 0; i < p->count; i++) {
         work[i] = to_camera(c, m->points[m->corners[p->first + i]]);
+        kept[0][i] = (struct kept){ work[i], p->first + i };
     }
     struct shape s = {
         .id = p->id, .slack = p->slack, .polygon = number, .z_min = INFINITY, .z_max = -INFINITY
@@ -106,18 +130,18 @@ static void add_shape(struct scene *scene, uint32_t number, struct vec *work, st
     if (!set_plane(&s, work, p->count)) {
         return;
     }
-    s.count = clip_near(work, p->count, p->first, c->near_z, kept);
+    s.count = clip_shape(c, kept[0], p->count, kept[1]);
     if (s.count < 3) {
         return;
     }
     s.first = (uint32_t)scene->spot_count;
     scene->spots = more(scene->spots, scene->spot_count + s.count, sizeof *scene->spots);
     for (uint32_t i = 0; i < s.count; i++) {
-        s.z_min = fmin(s.z_min, kept[i].at.z);
-        s.z_max = fmax(s.z_max, kept[i].at.z);
-        scene->spots[s.first + i] = project(c, kept[i]);
+        s.z_min = fmin(s.z_min, kept[0][i].at.z);
+        s.z_max = fmax(s.z_max, kept[0][i].at.z);
+        scene->spots[s.first + i] = project(c, kept[0][i]);
     }
-    set_bounds(&s, scene->spots + s.first, scene->two_sided);
+    set_bounds(&s, scene->spots + s.first, scene->two_sided, scene->tells);
     scene->spot_count += s.count;
     scene->shapes = more(scene->shapes, scene->shape_count + 1, sizeof *scene->shapes);
     scene->shapes[scene->shape_count++] = s;
@@ -378,24 +402,27 @@ static void draw_shape(struct scene *scene, uint32_t number, struct crossing *wo
 }
 
 void scene_make(struct scene *scene, const struct model *model, const struct camera *camera,
-                bool two_sided)
+                bool two_sided, enum tells tells)
 {
     memset(scene, 0, sizeof *scene);
     scene->camera = camera;
     scene->model = model;
     scene->two_sided = two_sided;
-    scene->id_count = model->source_count;
+    scene->tells = tells;
+    scene->id_count = tells == TELLS_ID ? model->source_count : SIDE_BACK;
     uint32_t most = 0;
     for (size_t i = 0; i < model->polygon_count; i++) {
         most = model->polygons[i].count > most ? model->polygons[i].count : most;
     }
     struct vec *work = need(most, sizeof *work);
-    struct kept *kept = need((size_t)most * 2, sizeof *kept);
+    struct kept *kept[2] = { need((size_t)most * 4, sizeof **kept),
+                             need((size_t)most * 4, sizeof **kept) };
     for (uint32_t i = 0; i < model->polygon_count; i++) {
         add_shape(scene, i, work, kept);
     }
     free(work);
-    free(kept);
+    free(kept[0]);
+    free(kept[1]);
     find_rims(scene);
     make_bins(scene);
     index_ids(scene);
@@ -405,7 +432,7 @@ void scene_make(struct scene *scene, const struct model *model, const struct cam
     for (size_t i = 0; i < pixels; i++) {
         scene->depth[i] = INFINITY;
     }
-    struct crossing *crossings = need((size_t)most * 2 + 2, sizeof *crossings);
+    struct crossing *crossings = need((size_t)most * 4 + 2, sizeof *crossings);
     for (uint32_t i = 0; i < scene->shape_count; i++) {
         draw_shape(scene, i, crossings);
     }

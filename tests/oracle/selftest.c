@@ -145,8 +145,8 @@ static void hidden_shown(const struct model *m, const struct camera *camera, uin
     behind.polygon_count = m->polygon_count - 1;
     model_join(&behind);
     struct scene whole, part;
-    scene_make(&whole, m, camera, false);
-    scene_make(&part, &behind, camera, false);
+    scene_make(&whole, m, camera, false, TELLS_ID);
+    scene_make(&part, &behind, camera, false, TELLS_ID);
     draw(&part, frame);
     struct verdict v = judged(&whole, frame);
     expect("a hidden polygon shown is wrong all over", v.wrong > 1000);
@@ -156,6 +156,44 @@ static void hidden_shown(const struct model *m, const struct camera *camera, uin
     free(behind.edge_of);
 }
 
+/* The wall cut at x = 0: a picture that was not cut is wrong, and so is one of the other half. */
+static void cut_open(const struct model *m, const struct camera *camera, uint32_t *frame)
+{
+    struct camera cut = *camera;
+    struct scene half, whole;
+    cut.cuts = true;
+    cut.cut = (struct vec){ 1, 0, 0 };
+    scene_make(&half, m, &cut, true, TELLS_ID);
+    scene_make(&whole, m, camera, true, TELLS_ID);
+    draw(&half, frame);
+    struct verdict v = judged(&half, frame);
+    expect("the right picture of a cut model is right", v.wrong + v.holes == 0 && v.model > 2000);
+    expect("nothing is left of what was cut off", frame[60 * WIDTH + 50] == 0);
+    draw(&whole, frame);
+    v = judged(&half, frame);
+    expect("a picture that was not cut is reported", v.wrong > 2000);
+    scene_free(&half);
+    cut.cut.x = -1;
+    scene_make(&half, m, &cut, true, TELLS_ID);
+    v = judged(&half, frame);
+    expect("nor is the other half right", v.wrong > 2000);
+    draw(&half, frame);
+    scene_free(&half);
+    scene_free(&whole);
+    cut.cut.x = 1;
+    scene_make(&half, m, &cut, true, TELLS_SIDE);
+    draw(&half, frame);
+    v = judged(&half, frame);
+    uint32_t at = 60 * WIDTH + 110;
+    expect("the right picture of sides is right",
+           v.wrong + v.holes == 0 && frame[at] == SIDE_FRONT);
+    v = with_pixel(&half, frame, 110, 60, SIDE_BACK);
+    expect("a cap in the wrong place is 1 wrong", v.wrong == 1 && v.holes == 0);
+    v = with_pixel(&half, frame, 110, 60, 0);
+    expect("a cap that is missing is 1 hole", v.wrong == 0 && v.holes == 1);
+    scene_free(&half);
+}
+
 int self_test(void)
 {
     static uint32_t frame[PIXELS];
@@ -163,7 +201,7 @@ int self_test(void)
     make_model(&model);
     struct camera front = make_camera(0, 0, 30000, 0);
     struct scene scene;
-    scene_make(&scene, &model, &front, false);
+    scene_make(&scene, &model, &front, false, TELLS_ID);
     draw(&scene, frame);
     struct verdict v = judged(&scene, frame);
     expect("the right picture is right", v.wrong == 0 && v.holes == 0 && v.model == v.same);
@@ -177,13 +215,14 @@ int self_test(void)
     hidden_shown(&model, &front, frame);
 
     struct camera inside = make_camera(200, 100, 60, 0.4);
-    scene_make(&scene, &model, &inside, true);
+    scene_make(&scene, &model, &inside, true, TELLS_ID);
     draw(&scene, frame);
     v = judged(&scene, frame);
     expect("the right picture from inside is right", v.wrong == 0 && v.holes == 0 && v.model > 0);
     v = shifted(&scene, frame, 40);
     expect("from inside a shift by 40 pixels is reported", v.wrong + v.holes > 50);
     scene_free(&scene);
+    cut_open(&model, &front, frame);
     model_free(&model);
     return failures ? 1 : 0;
 }

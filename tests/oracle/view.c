@@ -65,6 +65,15 @@ static struct camera camera_of(const cJSON *v)
     c.near_z = number(v, "near_z") * unit;
     c.width = (uint32_t)number(v, "width");
     c.height = (uint32_t)number(v, "height");
+    if (cJSON_GetObjectItemCaseSensitive(v, "cut_q20")) {
+        const cJSON *offset = cJSON_GetObjectItemCaseSensitive(v, "cut_offset");
+        if (!cJSON_IsString(offset)) {
+            stop("cut_offset", "this number is missing in the views file");
+        }
+        c.cuts = true;
+        c.cut = vector(v, "cut_q20", ldexp(1, -20));
+        c.cut_offset = ldexp(strtod(offset->valuestring, NULL), -20) * unit;
+    }
     const cJSON *projection = cJSON_GetObjectItemCaseSensitive(v, "projection");
     c.parallel = cJSON_IsString(projection) ? strcmp(projection->valuestring, "parallel") == 0
                                             : number(v, "projection") == 1;

@@ -111,7 +111,14 @@ static void use_view(const struct ow_tree *tree, const struct ow_view *view, uin
                                 .cull = culls[number % 3],
                                 .background = 0x204060,
                                 .ambient_q8 = 64,
-                                .light = { { 5000, 9000, 12000 }, 256, number % 3 == 0 } };
+                                .lights = { { .direction_q14 = { 5000, 9000, 12000 },
+                                              .intensity_q8 = 256,
+                                              .in_model_space = number % 3 == 0 },
+                                            { .at_point = true,
+                                              .intensity_q8 = 200,
+                                              .in_model_space = number % 2 == 0,
+                                              .place = { 0, 1 << 22, -(1 << 20) } } },
+                                .light_count = (uint8_t)(1 + number % 2) };
         draw_bands(tree, view, &look, order ? &ow_format_rgb565 : &ow_format_xrgb8888,
                    number % 2 ? 2 : 0);
     }

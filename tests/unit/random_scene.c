@@ -146,7 +146,8 @@ struct ow_look random_scene_look(enum ow_shade shade)
         .background = 0x203040,
         .foreground = 0xF0E0D0,
         .ambient_q8 = 60,
-        .light = { .direction_q14 = { -6000, 9000, 12288 }, .intensity_q8 = 196 },
+        .lights = { { .direction_q14 = { -6000, 9000, 12288 }, .intensity_q8 = 196 } },
+        .light_count = 1,
         .specular_q8 = 100,
         .shininess = 4,
     };

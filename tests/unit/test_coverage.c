@@ -74,8 +74,8 @@ static void paint_face(struct canvas *canvas, const struct random_scene *scene,
         points[i].x *= 4;
         points[i].y *= 4;
         if (smooth) {
-            lights[i] = ow_shade_corner(canvas->shader, &scene->tree,
-                                        ow_corner(&scene->tree, face->at, i), false);
+            ow_shade_corner(canvas->shader, &scene->tree, ow_corner(&scene->tree, face->at, i),
+                            false, &lights[i]);
         }
     }
     canvas->gradient = NULL;
@@ -101,7 +101,7 @@ static void paint_reference(struct canvas *canvas, struct random_scene *scene,
     struct ow_face face;
     void *stack = malloc(ow_walk_stack_bytes(&scene->tree));
     assert_non_null(stack);
-    ow_shader_make(&shader, look, view);
+    ow_shader_make(&shader, &ow_parts_all, look, view);
     canvas->sink = (struct ow_span_sink){ spans, 0, FINE_HEIGHT, take };
     canvas->shader = &shader;
     memset(canvas->model, 0, sizeof canvas->model);

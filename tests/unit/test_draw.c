@@ -92,6 +92,15 @@ static void check_orders(struct random_scene *scene, const struct ow_view *view,
     assert_same(&painter, &other);
     /* Each pixel once: the model's and the background's fill the screen exactly. */
     assert_int_equal(other.stats.pixels_written + other.stats.pixels_background, WIDTH * HEIGHT);
+    struct ow_parts segments = ow_parts_all;
+    struct ow_workspace_config listing = plain;
+    uint32_t spans = other.stats.spans;
+    segments.dynamic = &ow_surface_segments;
+    listing.parts = &segments;
+    draw(&other, scene, &listing, view, &changed, 0);
+    assert_same(&painter, &other);
+    assert_int_equal(other.stats.pixels_written + other.stats.pixels_background, WIDTH * HEIGHT);
+    assert_int_equal(other.stats.spans, spans);
     changed.order = OW_SCAN_LINE;
     draw(&other, scene, &lists, view, &changed, 0);
     assert_same(&painter, &other);
@@ -261,23 +270,28 @@ static void looks_whose_part_is_missing_are_refused(void **state)
 {
     (void)state;
     static struct picture picture;
-    static const struct ow_parts painter_alone = { .painter = &ow_surface_painter };
+    static const struct ow_parts painter_alone = { .painter = &ow_surface_painter,
+                                                   .shading[OW_SHADE_FLAT] = &ow_shading_flat };
     struct random_scene scene;
     random_scene_make(&scene, 5, false);
     struct ow_view view = random_scene_view(&scene, 0, WIDTH, HEIGHT);
     struct ow_workspace_config config = plain;
     config.parts = &painter_alone;
     const struct ow_look plain_look = random_scene_look(OW_SHADE_FLAT);
-    struct ow_look looks[5] = { plain_look, plain_look, plain_look, plain_look, plain_look };
+    struct ow_look looks[9];
+    for (uint32_t i = 0; i < 9; i++) {
+        looks[i] = plain_look;
+        looks[i].order = OW_BACK_TO_FRONT;
+    }
     looks[0].order = OW_FRONT_TO_BACK;
     looks[1].order = OW_SCAN_LINE;
     looks[2].shade = OW_SHADE_LINES;
     looks[3].dither = true;
-    looks[4].order = OW_BACK_TO_FRONT;
-    for (uint32_t i = 0; i < 5; i++) {
-        if (i == 2 || i == 3) {
-            looks[i].order = OW_BACK_TO_FRONT;
-        }
+    looks[5].shade = OW_SHADE_ID;
+    looks[6].map = OW_MAP_HEAT;
+    looks[7].depth_far = 1;
+    looks[8].lights[0].at_point = true;
+    for (uint32_t i = 0; i < 9; i++) {
         draw(&picture, &scene, &config, &view, &looks[i], 0);
         assert_int_equal(picture.status, i == 4 ? OW_OK : OW_UNSUPPORTED);
     }

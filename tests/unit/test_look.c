@@ -114,9 +114,9 @@ static void test_depth_cue(void **state)
         random_scene_make(&scene, FACES, true);
         struct ow_view view = random_scene_view(&scene, i, WIDTH, HEIGHT);
         struct ow_look look = random_scene_look(OW_SHADE_FLAT);
-        ow_shader_make(&plain, &look, &view);
+        ow_shader_make(&plain, &ow_parts_all, &look, &view);
         set_depth_cue(&look, &scene, &view);
-        ow_shader_make(&shader, &look, &view);
+        ow_shader_make(&shader, &ow_parts_all, &look, &view);
         struct ow_face face = { .at = scene.tree.polygons_at, .reverse = false };
         for (uint32_t n = 0; n < FACES; n++) {
             double nearest = 1e9;
@@ -148,11 +148,12 @@ static void test_smooth_parts(void **state)
         struct ow_look look = random_scene_look(shades[i % 2]);
         look.specular_q8 = 0;
         look.map = OW_MAP_HEAT;
-        ow_shader_make(&plain, &look, &view);
+        ow_shader_make(&plain, &ow_parts_all, &look, &view);
         set_depth_cue(&look, &scene, &view);
-        ow_shader_make(&shader, &look, &view);
+        ow_shader_make(&shader, &ow_parts_all, &look, &view);
         for (uint32_t vertex = 0; vertex < scene.tree.vertex_count; vertex++) {
-            struct ow_corner_light light = ow_shade_corner(&shader, &scene.tree, vertex, false);
+            struct ow_corner_light light;
+            ow_shade_corner(&shader, &scene.tree, vertex, false, &light);
             uint32_t got = ow_shade_pixel(&shader, 0x123456, &light);
             uint32_t unfaded = ow_shade_pixel(&plain, 0x654321, &light);
             check_channels(got, unfaded, look.background,
@@ -260,6 +261,10 @@ static void test_refusals(void **state)
     }
     struct ow_look look = random_scene_look(OW_SHADE_FLAT);
     look.map = (enum ow_map)(OW_MAP_SPECTRUM + 1);
+    assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
+    look.map = OW_MAP_NONE;
+    assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_OK);
+    look.light_count = OW_LIGHTS_MAX + 1;
     assert_int_equal(ow_draw_begin(&scene.tree, &view, &look, &scene.workspace), OW_ARGUMENT);
     random_scene_free(&scene);
 }

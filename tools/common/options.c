@@ -83,6 +83,7 @@ static void print_default(const struct option_spec *spec)
         printf(" (%" PRIu32 "x%" PRIu32 ")", size[0], size[1]);
         break;
     case OPTION_FLAG:
+    case OPTION_LIST:
         break;
     }
 }
@@ -259,6 +260,17 @@ static void take_size(const struct option_table *table, const struct option_spec
     }
 }
 
+static void take_item(const struct option_table *table, const struct option_spec *spec,
+                      const char *text)
+{
+    struct option_list *list = spec->value;
+    size_t most = spec->max > 0 ? (size_t)spec->max : OPTION_LIST_MOST;
+    if (list->count == most) {
+        options_wrong(table, "--%s can be given %zu times", spec->name, most);
+    }
+    list->text[list->count++] = text;
+}
+
 static void take_value(const struct option_table *table, const struct option_spec *spec,
                        const char *text)
 {
@@ -283,6 +295,9 @@ static void take_value(const struct option_table *table, const struct option_spe
         break;
     case OPTION_SIZE:
         take_size(table, spec, text);
+        break;
+    case OPTION_LIST:
+        take_item(table, spec, text);
         break;
     }
     if (spec->given != NULL) {

@@ -4,7 +4,7 @@
  *
  * Accepted: `--name value`, `--name=value`, `-x value`, `-xvalue`, `--flag`; operands anywhere;
  * `--` ends the options; `-` is an operand or a value. A value may begin with '-'.
- * Names are written in full. If an option is given twice, the last one counts.
+ * Names are written in full. If an option is given twice, the last one counts, but for lists.
  * `--help` and `--version` are always there: standard output, exit status 0.
  * Wrong options: one line and the usage on standard error, exit status 2.
  *
@@ -34,7 +34,15 @@ enum option_kind {
     OPTION_DOUBLE,   /* finite number in [min, max]; double; min = max = 0: no limits */
     OPTION_CHOICE,   /* one of `choices`; int, its index; -1 is "none" */
     OPTION_VECTOR,   /* x,y,z finite; double[3] */
+    OPTION_LIST,     /* text, each time it is given; struct option_list; at most max, 0: all */
     OPTION_SIZE      /* WxH, both in [min, max] and at least 1; uint32_t[2]; max 0: 65535 */
+};
+
+enum { OPTION_LIST_MOST = 32 };
+
+struct option_list {
+    const char *text[OPTION_LIST_MOST];
+    size_t count;
 };
 
 /*

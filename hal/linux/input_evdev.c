@@ -103,7 +103,8 @@ static void learn_axes(struct linux_evdev *evdev)
         const struct linux_evdev_meaning *meaning = &evdev->config.meanings[i];
         struct input_absinfo info = { 0 };
         if (meaning->type == EV_ABS && evdev->axis_count < LINUX_EVDEV_AXES &&
-            control(evdev, EVIOCGABS((unsigned)meaning->code), &info) >= 0 && info.maximum > info.minimum) {
+            control(evdev, EVIOCGABS((unsigned)meaning->code), &info) >= 0 &&
+            info.maximum > info.minimum) {
             evdev->axes[evdev->axis_count++] =
                 (struct linux_evdev_axis){ meaning->code, info.minimum, info.maximum, info.flat,
                                            0 };

@@ -92,11 +92,11 @@ static bool turn(struct linux_input_gpio *input, uint32_t number, bool is_a, boo
     uint32_t before = input->levels[number];
     uint32_t now = level ? before | bit : before & ~bit;
     input->levels[number] = (uint8_t)now;
-    input->turned[number] = (int8_t)(input->turned[number] + direction(before, now));
+    input->turned[number] += direction(before, now);
     if (!rests(input, number)) {
         return false;
     }
-    int turned = input->turned[number];
+    int32_t turned = input->turned[number];
     int enough = (input->encoders[number].edges + 1) / 2;
     input->turned[number] = 0;
     *value = turned >= enough ? 1 : turned <= -enough ? -1 : 0;

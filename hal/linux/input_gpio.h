@@ -39,7 +39,7 @@ struct linux_input_gpio {
     bool pressed[LINUX_INPUT_BUTTONS];
     uint8_t levels[LINUX_INPUT_ENCODERS]; /* a in bit 1, b in bit 0 */
     uint8_t rest[LINUX_INPUT_ENCODERS];   /* levels at a detent */
-    int8_t turned[LINUX_INPUT_ENCODERS];  /* edges since the last detent */
+    int32_t turned[LINUX_INPUT_ENCODERS]; /* edges since the last detent */
 };
 
 /* Device: struct linux_input_gpio. Events lost in the kernel are OW_CAPACITY. */

@@ -23,7 +23,8 @@ GPIOD ?= $(shell if $(gpiod_pkg) --atleast-version=2 libgpiod 2>/dev/null; then 
 gpiod_libs ?= $(if $(filter-out none,$(GPIOD)),-lgpiod)
 without_gpiod := $(filter-out hal/linux/gpiod_$(GPIOD).c,$(wildcard hal/linux/gpiod_*.c))
 
-linux_src  := $(filter-out $(without_drm) $(without_gpiod),$(wildcard hal/linux/*.c boards/linux/*.c))
+linux_src  := $(filter-out $(without_drm) $(without_gpiod), \
+                $(wildcard hal/linux/*.c boards/linux/*.c))
 viewer_src := $(wildcard firmware/viewer/*.c hal/panel/*.c)
 
 $(O)/oldwell.a: $(call parts,$(linux_src) $(viewer_src))

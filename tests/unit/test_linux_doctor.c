@@ -215,14 +215,16 @@ static void a_missing_device_is_told_with_the_remedy(void **state)
     struct oldwell_settings settings = { .doctor = true,
                                          .panel = PANEL_FBDEV,
                                          .device = "/dev/there-is-none",
-                                         .board = "boards/none/board.conf" };
+                                         .board = "boards/none/board.conf",
+                                         .console = "/dev/tty0" };
     char text[2048];
     (void)state;
     fake_reset();
     assert_int_equal(round_of(&settings, text, sizeof text), 3);
     assert_non_null(strstr(text, "ok board: boards/none/board.conf\n"));
+    assert_non_null(strstr(text, "ok console: its text gives way to the picture\n"));
     assert_non_null(strstr(text, "not ok fbdev: /dev/there-is-none: No such file or directory; "));
-    assert_non_null(strstr(text, "1 right, 1 wrong\n"));
+    assert_non_null(strstr(text, "2 right, 1 wrong\n"));
 }
 
 static void a_good_display_is_described(void **state)

@@ -14,7 +14,7 @@
 
 #include "tools/common/fail.h"
 
-enum { PATIENCE_S = 5, SIGNAL_BASE = 128 };
+enum { PATIENCE_S = 5, SIGNAL_BASE = 128, TEXT_BYTES = 600 };
 
 static const int forwarded[] = { SIGINT, SIGTERM, SIGQUIT, SIGHUP };
 
@@ -25,13 +25,27 @@ static void add_forwarded(sigset_t *set)
     }
 }
 
+/* Only once somebody is there to give it back. */
+static void take(struct linux_console *console)
+{
+    char text[TEXT_BYTES];
+    if (linux_console_take(console) < 0) {
+        linux_fault_text(&console->fault, text, sizeof text);
+        warn_line(NULL, 0, "%s; text may be drawn over the picture", text);
+    }
+}
+
 /* The child's side. The work ends in order when the guardian dies: it gets SIGTERM then. */
 static _Noreturn void be_child(struct linux_console *console, int (*work)(void *context),
                                void *context, pid_t guardian, const sigset_t *mask)
 {
     sigprocmask(SIG_SETMASK, mask, NULL);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    int status = getppid() == guardian ? work(context) : EXIT_FAILURE;
+    int status = EXIT_FAILURE;
+    if (getppid() == guardian) {
+        take(console);
+        status = work(context);
+    }
     if (getppid() != guardian) {
         linux_console_give_back(console);
     }
@@ -76,6 +90,7 @@ int guardian_run(struct linux_console *console, int (*work)(void *context), void
     if (child < 0) {
         warn_line(NULL, 0, "fork: no process can be made, the console may stay without text");
         sigprocmask(SIG_SETMASK, &before, NULL);
+        take(console);
         int status = work(context);
         linux_console_give_back(console);
         return status;

@@ -9,12 +9,12 @@
 #include "hal/linux/console.h"
 
 /*
- * Has a child do the work and returns its exit status when the console has been
- * given back. SIGINT, SIGTERM, SIGQUIT and SIGHUP go on to the child; after five
- * seconds without effect it is killed. A child that a signal ended is reported
- * as 128 + its number, the signal in *signal (0: none). If the guardian itself
- * is killed, the child stops and gives the console back. To be called before
- * there are threads.
+ * Has a child take the open console and do the work, and returns its exit status
+ * when the console has been given back. SIGINT, SIGTERM, SIGQUIT and SIGHUP go
+ * on to the child; after five seconds without effect it is killed. A child that
+ * a signal ended is reported as 128 + its number, the signal in *signal (0:
+ * none). If the guardian itself is killed, the child stops and gives the console
+ * back. To be called before there are threads.
  */
 int guardian_run(struct linux_console *console, int (*work)(void *context), void *context,
                  int *signal);

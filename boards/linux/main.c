@@ -40,7 +40,7 @@ static int draw_guarded(void)
     if (settings.doctor && settings.seconds == 0) {
         return draw(NULL);
     }
-    if (linux_console_take(&console, &linux_system, settings.console) < 0) {
+    if (linux_console_open(&console, &linux_system, settings.console) < 0) {
         linux_fault_text(&console.fault, text, sizeof text);
         warn_line(NULL, 0, "%s; text may be drawn over the picture", text);
     }

@@ -17,7 +17,7 @@ static const struct output_kind *const kinds[] = {
 
 const struct output_kind *output_kind_of(const struct oldwell_settings *settings)
 {
-    return kinds[settings->panel];
+    return settings->panel < PANEL_COMMAND ? kinds[settings->panel] : &output_command;
 }
 
 int output_open(struct output *output, const struct oldwell_settings *settings,

@@ -54,6 +54,7 @@ void output_close(struct output *output);
 
 int output_finish(struct output *output);
 
+extern const struct output_kind output_command;
 extern const struct output_kind output_drm; /* where libdrm is there: OLDWELL_DRM */
 extern const struct output_kind output_fbdev;
 extern const struct output_kind output_file;

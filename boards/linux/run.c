@@ -28,6 +28,8 @@ int run_exit_status(int status)
         return FAIL_ABSENT;
     case OW_DENIED:
         return FAIL_DENIED;
+    case OW_ARGUMENT:
+        return FAIL_USAGE;
     case OW_TIMEOUT:
         return FAIL_TIMEOUT;
     default:
@@ -75,7 +77,8 @@ static int open_display(struct run *run, uint64_t for_s)
             return linux_wait_add(&run->waiting, run->output.fd, run->output.ready, &run->output);
         }
         uint64_t now = now_us(run);
-        if (status == OW_UNSUPPORTED || status == OW_MEMORY || now >= end_us) {
+        if (status == OW_UNSUPPORTED || status == OW_ARGUMENT || status == OW_MEMORY ||
+            now >= end_us) {
             return status;
         }
         pause_until(run, now + pause_us < end_us ? now + pause_us : end_us);
@@ -110,6 +113,7 @@ static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tr
     const struct oldwell_settings *s = run->settings;
     struct ow_viewer_config config = {
         .tree = tree,
+        .parts = &ow_parts_all,
         .look = s->look,
         .camera = { .projection = OW_PERSPECTIVE,
                     .fov = (ow_turn)llround(s->fov / 360 * 4294967296.0) },
@@ -142,7 +146,7 @@ static int make_viewer(struct run *run, const struct ow_tree *tree,
     uint32_t bytes = ow_viewer_bytes_needed(&config);
     void *memory = bytes == 0 ? NULL : malloc(bytes);
     if (memory == NULL) {
-        return OW_MEMORY;
+        return bytes == 0 ? OW_ARGUMENT : OW_MEMORY;
     }
     int status = ow_viewer_start(&viewer, &config, memory, bytes);
     if (status < 0) {
@@ -186,7 +190,7 @@ bool run_reload(struct run *run)
 static bool is_device_failure(int status)
 {
     return status == OW_GONE || status == OW_BUS || status == OW_TIMEOUT || status == OW_BUSY ||
-           status == OW_DENIED;
+           status == OW_DENIED || status == OW_FULL;
 }
 
 /* What the drivers do not note comes from the viewer: a status alone. */

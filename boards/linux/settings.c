@@ -12,6 +12,7 @@
 #include "board_file.h"
 #include "hal/camera.h"
 #include "hal/panel.h"
+#include "hal/panel/controller.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 
@@ -19,9 +20,18 @@
 #define OLDWELL_DATA_DIR "/usr/local/share/oldwell"
 #endif
 
-enum { ONE_Q8 = 256, ONE_Q14 = 1 << 14, FORMATS_MOST = 31, OPTIONS_MOST = 80, PATH_BYTES = 4096 };
+enum {
+    ONE_Q8 = 256,
+    ONE_Q14 = 1 << 14,
+    FORMATS_MOST = 31,
+    OPTIONS_MOST = 80,
+    PANELS_MOST = 31,
+    PATH_BYTES = 4096
+};
 
-static const char *const panels[] = { "fbdev", "drm", "v4l2", "file", NULL };
+static const char *panels[PANELS_MOST + 1] = { "fbdev", "drm", "v4l2", "file" };
+static const char *const buses[] = { "spi", "i2c", NULL };
+static const char *const inverts[] = { "auto", "yes", "no", NULL };
 static const char *const orders[] = { "back-to-front", "front-to-back", NULL };
 static const char *const shades[] = { "id", "flat", "gouraud", "phong", "lines", NULL };
 static const char *const coverages[] = { "none", "4x4", NULL };
@@ -49,6 +59,9 @@ struct raw {
     int coverage;
     int format;
     int pixels;
+    int bus;
+    const char *i2c_address;
+    const char *offset;
     bool dither;
     const char *background;
     const char *foreground;
@@ -61,7 +74,7 @@ struct raw {
 static struct option_spec specs[OPTIONS_MOST];
 static struct option_table table;
 
-const char *panel_kind_name(enum panel_kind kind)
+const char *panel_kind_name(int kind)
 {
     return panels[kind];
 }
@@ -76,8 +89,8 @@ static size_t add_panel(struct option_spec *to, struct oldwell_settings *s, stru
           .help = "what to show, if no argument says so" },
         { "panel", 0, OPTION_CHOICE, &s->panel, NULL, "the kind of display", .choices = panels },
         { "device", 0, OPTION_STRING, &s->device, "PATH", .help = "the display (the usual one)" },
-        { "size", 0, OPTION_SIZE, s->size, "WxH", "v4l2, file: pixels", .max = OW_PANEL_SIZE_MAX,
-          .given = &s->has_size },
+        { "size", 0, OPTION_SIZE, s->size, "WxH", "pixels, where the display leaves a choice",
+          .max = OW_PANEL_SIZE_MAX, .given = &s->has_size },
         { "format", 0, OPTION_CHOICE, &raw->format, NULL, "file: of the pixels",
           .choices = formats },
         { "depth", 0, OPTION_UNSIGNED, &s->depth, "BITS", "fbdev: 16 or 32 (as it is)", .min = 16,
@@ -97,6 +110,31 @@ static size_t add_panel(struct option_spec *to, struct oldwell_settings *s, stru
           .help = "a V4L2 camera's picture behind the model" },
         { "camera-size", 0, OPTION_SIZE, s->camera_size, "WxH", "of the camera (its own)",
           .max = OW_PANEL_SIZE_MAX, .given = &s->has_camera_size, .no_default = true },
+    };
+    memcpy(to, these, sizeof these);
+    return sizeof these / sizeof these[0];
+}
+
+static size_t add_bus(struct option_spec *to, struct oldwell_settings *s, struct raw *raw)
+{
+    const struct option_spec these[] = {
+        { "bus", 0, OPTION_CHOICE, &raw->bus, NULL, "of a panel with a controller",
+          .choices = buses },
+        { "spi-hz", 0, OPTION_UNSIGNED, &s->spi_hz, "HZ", "clock (the controller's highest)",
+          .min = 1000, .max = 2e8, .no_default = true },
+        { "spi-mode", 0, OPTION_UNSIGNED, &s->spi_mode, "N", "clock polarity and phase", .max = 3 },
+        { "i2c-address", 0, OPTION_STRING, &raw->i2c_address, "HEX", .help = "7 bits" },
+        { "dc", 0, OPTION_STRING, &s->dc, "[CHIP:]LINE",
+          .help = "D/C; lines by name or number, ! before one turns its level round" },
+        { "reset", 0, OPTION_STRING, &s->reset, "[CHIP:]LINE", .help = "RESET, active low" },
+        { "backlight", 0, OPTION_STRING, &s->backlight, "[CHIP:]LINE", .help = "active high" },
+        { "offset", 0, OPTION_STRING, &raw->offset, "X,Y",
+          .help = "of the glass in the controller's memory" },
+        { "bgr", 0, OPTION_FLAG, &s->bgr, NULL, .help = "red and blue are exchanged" },
+        { "invert", 0, OPTION_CHOICE, &s->invert, NULL, "auto: as the usual glass needs it",
+          .choices = inverts },
+        { "mirror-x", 0, OPTION_FLAG, &s->mirror_x, NULL, .help = "left and right" },
+        { "mirror-y", 0, OPTION_FLAG, &s->mirror_y, NULL, .help = "top and bottom" },
     };
     memcpy(to, these, sizeof these);
     return sizeof these / sizeof these[0];
@@ -172,6 +210,7 @@ static void set_defaults(struct oldwell_settings *s, struct raw *raw)
         .order = OW_FRONT_TO_BACK,
         .shade = OW_SHADE_FLAT,
         .pixels = -1,
+        .i2c_address = "0x3c",
         .background = "20242c",
         .foreground = "f0f0f0",
         .ambient = 0.3,
@@ -183,7 +222,11 @@ static void set_defaults(struct oldwell_settings *s, struct raw *raw)
         formats[i] = ow_formats[i]->name;
         raw->format = ow_formats[i] == &ow_format_xrgb8888 ? (int)i : raw->format;
     }
+    for (uint32_t i = 0; i < ow_controller_count && PANEL_COMMAND + i < PANELS_MOST; i++) {
+        panels[PANEL_COMMAND + i] = ow_controllers[i]->name;
+    }
     size_t count = add_panel(specs, s, raw);
+    count += add_bus(specs + count, s, raw);
     count += add_look(specs + count, s, raw);
     count += add_run(specs + count, s);
     table = (struct option_table){ usage, about, specs, count, 0, 2, notes };
@@ -310,6 +353,36 @@ static void read_look(struct oldwell_settings *s, const struct raw *raw)
     }
 }
 
+static void read_bus(struct oldwell_settings *s, const struct raw *raw)
+{
+    char *end;
+    unsigned long address = strtoul(raw->i2c_address, &end, 16);
+    unsigned x;
+    unsigned y;
+    char rest;
+    s->on_i2c = raw->bus == 1;
+    if (s->panel >= PANEL_COMMAND && s->device == NULL) {
+        s->device = s->on_i2c ? "/dev/i2c-1" : "/dev/spidev0.0";
+    }
+    if (s->panel >= PANEL_COMMAND && !s->on_i2c && s->dc == NULL) {
+        options_wrong(&table, "--panel %s on SPI needs its D/C line: --dc gpiochip0:25, say",
+                      panel_kind_name(s->panel));
+    }
+    if (*end != '\0' || address < 0x08 || address > 0x77) {
+        options_wrong(&table, "--i2c-address takes 0x08 to 0x77, not '%s'", raw->i2c_address);
+    }
+    s->i2c_address = (uint8_t)address;
+    s->has_offset = raw->offset != NULL;
+    if (s->has_offset) {
+        if (sscanf(raw->offset, "%u,%u%c", &x, &y, &rest) != 2 || x > OW_PANEL_SIZE_MAX ||
+            y > OW_PANEL_SIZE_MAX) {
+            options_wrong(&table, "--offset takes two whole numbers X,Y, not '%s'", raw->offset);
+        }
+        s->offset[0] = (uint16_t)x;
+        s->offset[1] = (uint16_t)y;
+    }
+}
+
 static void check_panel(const struct oldwell_settings *s)
 {
     if (s->rotate % 90 != 0) {
@@ -356,5 +429,6 @@ void oldwell_settings_read(struct oldwell_settings *settings, int argc, char **a
     settings->board = path;
     read_operands(settings, operands, count);
     read_look(settings, &raw);
+    read_bus(settings, &raw);
     check_panel(settings);
 }

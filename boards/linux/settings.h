@@ -8,7 +8,15 @@
 
 #include "ow_draw.h"
 
-enum panel_kind { PANEL_FBDEV, PANEL_DRM, PANEL_V4L2, PANEL_FILE };
+enum panel_kind {
+    PANEL_FBDEV,
+    PANEL_DRM,
+    PANEL_V4L2,
+    PANEL_FILE,
+    PANEL_COMMAND /* and above: ow_controllers[panel - PANEL_COMMAND] */
+};
+
+enum invert_choice { INVERT_AUTO, INVERT_YES, INVERT_NO };
 
 struct oldwell_settings {
     bool doctor;
@@ -31,6 +39,21 @@ struct oldwell_settings {
     const char *camera;    /* NULL: none */
     uint32_t camera_size[2];
     bool has_camera_size;
+
+    /* A panel on a bus. Lines are [!][CHIP:]LINE, ! turns the level round; NULL: none. */
+    bool on_i2c;
+    uint64_t spi_hz; /* 0: the controller's own */
+    uint64_t spi_mode;
+    uint8_t i2c_address;
+    const char *dc;
+    const char *reset;
+    const char *backlight;
+    uint16_t offset[2];
+    bool has_offset;
+    bool bgr;
+    int invert; /* enum invert_choice */
+    bool mirror_x;
+    bool mirror_y;
 
     /* The view. */
     struct ow_look look;
@@ -56,6 +79,7 @@ struct oldwell_settings {
  */
 void oldwell_settings_read(struct oldwell_settings *settings, int argc, char **argv);
 
-const char *panel_kind_name(enum panel_kind kind);
+/* Of an enum panel_kind. */
+const char *panel_kind_name(int kind);
 
 #endif

@@ -36,7 +36,7 @@ static int give_up(struct linux_console *console, const char *path, const char *
     return quietly && status != OW_DENIED ? OW_OK : status;
 }
 
-int linux_console_take(struct linux_console *console, const struct linux_system *system,
+int linux_console_open(struct linux_console *console, const struct linux_system *system,
                        const char *path)
 {
     *console = (struct linux_console){ .system = system, .fd = -1 };
@@ -54,10 +54,15 @@ int linux_console_take(struct linux_console *console, const struct linux_system 
     if (linux_ioctl(system, console->fd, KDGETMODE, &console->before) != 0) {
         return give_up(console, path, "KDGETMODE", quietly);
     }
+    return OW_OK;
+}
+
+int linux_console_take(struct linux_console *console)
+{
     if (set_mode(console, KD_GRAPHICS) != 0) {
-        return give_up(console, path, "KDSETMODE", quietly);
+        return give_up(console, "the console", "KDSETMODE", false);
     }
-    (void)!system->write(console->fd, hide_cursor, sizeof hide_cursor - 1);
+    (void)!console->system->write(console->fd, hide_cursor, sizeof hide_cursor - 1);
     return OW_OK;
 }
 

@@ -70,7 +70,7 @@ static int camera_acquire(void *device, struct ow_video_frame *frame)
     if (held(video) >= HELD) {
         return OW_CAPACITY;
     }
-    for (;;) {
+    for (uint32_t i = 0; i <= video->count; i++) { /* a fast camera does not keep us here */
         int number = linux_v4l2_take(video, &time_us);
         if (number == OW_AGAIN) {
             break;

@@ -100,7 +100,7 @@ static int fake_open(const char *path, int flags)
     for (size_t i = 0; i < sizeof nodes / sizeof nodes[0]; i++) {
         for (int k = 0; strcmp(path, nodes[i].path) == 0 && k < FAKE_FDS; k++) {
             if (fake.kinds[k] == FAKE_NONE) {
-                fake.kinds[k] = nodes[i].kind;
+                fake.kinds[k] = (int)nodes[i].kind;
                 fake.open_fds++;
                 return FAKE_FIRST_FD + k;
             }
@@ -254,11 +254,12 @@ static int queue_buffer(const struct v4l2_buffer *buffer)
     return 0;
 }
 
-/* An output keeps its last buffer on the screen; a camera fills each. */
+/* An output keeps its last buffer on the screen; a camera has taken so many pictures. */
 static int dequeue_buffer(struct v4l2_buffer *buffer)
 {
-    uint32_t stay = buffer->type == V4L2_BUF_TYPE_VIDEO_OUTPUT ? 1 : 2;
-    if (!fake.streaming || fake.video_is_stuck || fake.queued <= stay) {
+    bool output = buffer->type == V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    bool ready = output ? fake.queued > 1 : fake.taken > 0 && fake.queued > 0;
+    if (!fake.streaming || fake.video_is_stuck || !ready) {
         return refuse(EAGAIN);
     }
     buffer->index = fake.queue[0];
@@ -267,7 +268,8 @@ static int dequeue_buffer(struct v4l2_buffer *buffer)
     buffer->timestamp.tv_sec = (time_t)(fake.now_us / 1000000);
     buffer->timestamp.tv_usec = (suseconds_t)(fake.now_us % 1000000);
     fake.frames++;
-    if (buffer->type == V4L2_BUF_TYPE_VIDEO_CAPTURE) {
+    if (!output) {
+        fake.taken--;
         memset(fake.buffers[buffer->index], (int)++fake.sequence, fake.format.sizeimage);
     }
     return 0;

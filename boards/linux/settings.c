@@ -341,7 +341,8 @@ static void read_look(struct oldwell_settings *s, const struct raw *raw)
     look->ambient_q8 = (uint16_t)lround(raw->ambient * ONE_Q8);
     look->specular_q8 = (uint16_t)lround(raw->highlight * ONE_Q8);
     look->shininess = (uint8_t)raw->shininess;
-    read_light(&look->light, raw);
+    read_light(&look->lights[0], raw);
+    look->light_count = 1;
     s->format = ow_formats[raw->format];
     s->pixels = raw->pixels < 0 ? 0 : video_codes[raw->pixels];
     if (look->coverage && (look->shade == OW_SHADE_ID || look->shade == OW_SHADE_LINES ||

@@ -207,7 +207,8 @@ static void a_turn_of_the_old_well_costs_no_more_than_the_rivals(void **state)
             .dither = looks[i].dither,
             .background = 0x20242C,
             .ambient_q8 = 77,
-            .light = { .direction_q14 = { -6521, 9781, 11412 }, .intensity_q8 = 179 },
+            .lights = { { .direction_q14 = { -6521, 9781, 11412 }, .intensity_q8 = 179 } },
+            .light_count = 1,
         };
         run_turn(&tree, &look);
         print_message(

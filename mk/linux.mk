@@ -23,7 +23,8 @@ GPIOD ?= $(shell if $(gpiod_pkg) --atleast-version=2 libgpiod 2>/dev/null; then 
 gpiod_libs ?= $(if $(filter-out none,$(GPIOD)),-lgpiod)
 without_gpiod := $(filter-out hal/linux/gpiod_$(GPIOD).c,$(wildcard hal/linux/gpiod_*.c))
 
-linux_src  := $(filter-out $(without_drm) $(without_gpiod),$(wildcard hal/linux/*.c boards/linux/*.c))
+linux_src  := $(filter-out $(without_drm) $(without_gpiod), \
+                $(wildcard hal/linux/*.c boards/linux/*.c))
 viewer_src := $(wildcard firmware/viewer/*.c hal/panel/*.c)
 
 $(O)/oldwell.a: $(call parts,$(linux_src) $(viewer_src))
@@ -34,6 +35,10 @@ $(O)/oldwell: $(call mains,$(linux_src)) $(O)/oldwell.a $(O)/common.a $(O)/core.
 $(O)/obj/tests/unit/test_linux_drm.o: extra = $(drm_cflags)
 $(O)/obj/boards/linux/%.o $(O)/obj/hal/linux/%.o: extra = $(drm_cflags) $(gpiod_cflags) \
     -DOLDWELL_DATA_DIR='"$(prefix)/share/oldwell"'
+$(O)/obj/boards/linux/settings.o: $(O)/data-dir
+$(O)/data-dir: FORCE
+	@mkdir -p $(@D)
+	@echo '$(prefix)' | cmp -s - $@ || echo '$(prefix)' >$@
 test_libs += $(drm_libs) $(gpiod_libs)
 
 programs: $(O)/oldwell
@@ -45,3 +50,37 @@ linux-arm64: ## oldwell for arm64 boards, without shared libraries: build/linux-
 	@+$(MAKE) --no-print-directory O=build/linux-arm64 STATIC=1 \
 	    CC='aarch64-linux-gnu-gcc --sysroot=$(CURDIR)/build/arm64-root' \
 	    build/linux-arm64/oldwell
+
+# ---- to install ---------------------------------------------------------------------------------
+# oldwell.service is not enabled and no group is made here: the package manager or the
+# administrator does (systemctl enable, systemd-sysusers, udevadm control --reload).
+bindir   ?= $(prefix)/bin
+datadir  ?= $(prefix)/share
+libdir   ?= $(prefix)/lib
+linux_boards := $(patsubst boards/%/board.conf,%,$(wildcard boards/*/board.conf))
+
+$(O)/oldwell.owt: $(O)/owgen $(O)/owc
+	$(Q)$(O)/owgen oldwell --detail high -o $(O)/oldwell.obj
+	$(Q)$(O)/owc $(O)/oldwell.obj -o $@
+
+install: install-linux
+.PHONY: install-linux install-linux-files
+install-linux: $(O)/oldwell $(O)/oldwell.owt
+	@+$(MAKE) --no-print-directory install-linux-files
+install-linux-files:
+	install -d $(DESTDIR)$(bindir) $(DESTDIR)$(datadir)/man/man1 $(DESTDIR)$(datadir)/man/man5 \
+	    $(DESTDIR)$(datadir)/oldwell $(DESTDIR)$(libdir)/systemd/system \
+	    $(DESTDIR)$(libdir)/sysusers.d $(DESTDIR)$(libdir)/udev/rules.d
+	install -m 755 $(O)/oldwell $(DESTDIR)$(bindir)
+	install -m 644 docs/man/oldwell.1 $(DESTDIR)$(datadir)/man/man1
+	install -m 644 docs/man/oldwell-board.5 $(DESTDIR)$(datadir)/man/man5
+	install -m 644 $(O)/oldwell.owt packaging/console.conf $(DESTDIR)$(datadir)/oldwell
+	for b in $(linux_boards); do \
+	    install -d $(DESTDIR)$(datadir)/oldwell/boards/$$b && \
+	    install -m 644 boards/$$b/board.conf boards/$$b/README.md \
+	        $(DESTDIR)$(datadir)/oldwell/boards/$$b || exit 1; done
+	sed 's|@bindir@|$(bindir)|' packaging/oldwell.service.in \
+	    >$(DESTDIR)$(libdir)/systemd/system/oldwell.service
+	chmod 644 $(DESTDIR)$(libdir)/systemd/system/oldwell.service
+	install -m 644 packaging/sysusers.conf $(DESTDIR)$(libdir)/sysusers.d/oldwell.conf
+	install -m 644 packaging/udev.rules $(DESTDIR)$(libdir)/udev/rules.d/70-oldwell.rules

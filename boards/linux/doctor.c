@@ -9,6 +9,7 @@
 #include "access.h"
 #include "events.h"
 #include "hal/linux/clock.h"
+#include "hal/linux/console.h"
 #include "hal/linux/v4l2_camera.h"
 #include "output.h"
 #include "pattern.h"
@@ -75,6 +76,34 @@ static void check_camera(struct report *report, const struct oldwell_settings *s
     linux_v4l2_camera_close(&camera);
 }
 
+/* Only that it can be had: it is taken later, by who gives it back. */
+static void check_console(struct report *report, const struct oldwell_settings *settings,
+                          const struct linux_system *system)
+{
+    struct linux_console console;
+    if (linux_console_open(&console, system, settings->console) < 0) {
+        report_fault(report, "console", &console.fault);
+    } else if (console.fd < 0) {
+        report_note(report, "console", "none shares the screen");
+    } else {
+        report_good(report, "console", "its text gives way to the picture");
+        (void)system->close(console.fd);
+    }
+}
+
+/* Where permission is missing, the node says whose. */
+static void report_failed_open(struct report *report, const char *item,
+                               const struct linux_fault *fault)
+{
+    char text[TEXT_BYTES];
+    if (fault->status == OW_DENIED && fault->device[0] == '/' &&
+        !access_of_path(fault->device, text, sizeof text)) {
+        report_bad(report, OW_DENIED, item, "%s: %s", fault->device, text);
+    } else {
+        report_fault(report, item, fault);
+    }
+}
+
 static void describe_panel(struct report *report, const struct output *output)
 {
     struct ow_panel_info info;
@@ -137,13 +166,16 @@ int doctor_main(struct report *report, const struct oldwell_settings *settings,
     }
     check_tree(report, settings);
     check_camera(report, settings, system);
+    if (kind != NULL && kind->on_console) {
+        check_console(report, settings, system);
+    }
     if (device == NULL && kind != NULL) {
         device = kind->usual_device;
     }
     bool may = settings->panel == PANEL_FILE || device == NULL ||
                check_node(report, panel_kind_name(settings->panel), device);
     if (may && output_open(&output, settings, system) < 0) {
-        report_fault(report, panel_kind_name(settings->panel), output.fault);
+        report_failed_open(report, panel_kind_name(settings->panel), output.fault);
     } else if (may) {
         describe_panel(report, &output);
         if (settings->seconds > 0) {

@@ -46,21 +46,33 @@ static uint32_t source_pixel(const struct ow_video_backdrop *backdrop, uint32_t 
     }
 }
 
-/* The picture's pixel at a pixel of the panel. */
-static uint32_t pixel_at(const struct ow_video_backdrop *backdrop, uint32_t x, uint32_t y)
+/*
+ * Pixels first .. stop-1 of the panel's line. Along a line one coordinate of the
+ * picture stays and the other moves, backwards if it is turned by one or two.
+ */
+static void read_line(const struct ow_video_backdrop *backdrop, uint32_t *rgb, uint32_t line,
+                      uint32_t first, uint32_t stop)
 {
-    uint32_t right = backdrop->width - 1u - x;
-    uint32_t below = backdrop->height - 1u - y;
-    uint32_t u = backdrop->turns == 0   ? x
-                 : backdrop->turns == 1 ? y
-                 : backdrop->turns == 2 ? right
-                                        : below;
-    uint32_t v = backdrop->turns == 0   ? y
-                 : backdrop->turns == 1 ? right
-                 : backdrop->turns == 2 ? below
-                                        : x;
-    return source_pixel(backdrop, (u + backdrop->left) * backdrop->step / backdrop->repeat,
-                        (v + backdrop->top) * backdrop->step / backdrop->repeat);
+    bool downwards = backdrop->turns & 1;
+    bool backwards = backdrop->turns == 1 || backdrop->turns == 2;
+    uint32_t count = stop - first;
+    uint32_t start = backwards ? backdrop->width - stop : first;
+    uint32_t stays = backdrop->turns < 2 ? line : backdrop->height - 1u - line;
+    uint32_t moves = (start + (downwards ? backdrop->top : backdrop->left)) * backdrop->step;
+    uint32_t other =
+        (stays + (downwards ? backdrop->left : backdrop->top)) * backdrop->step / backdrop->repeat;
+    uint32_t at = moves / backdrop->repeat;
+    uint32_t rest = moves % backdrop->repeat;
+    for (uint32_t i = 0; i < count; i++) {
+        rgb[backwards ? count - 1 - i : i] =
+            downwards ? source_pixel(backdrop, other, at) : source_pixel(backdrop, at, other);
+        if (backdrop->repeat == 1) {
+            at += backdrop->step;
+        } else if (++rest == backdrop->repeat) { /* then a step is 1 */
+            rest = 0;
+            at++;
+        }
+    }
 }
 
 static void fill(void *context, const struct ow_pixel_format *format, uint8_t *row, uint32_t line,
@@ -74,9 +86,7 @@ static void fill(void *context, const struct ow_pixel_format *format, uint8_t *r
     }
     while (first < end) {
         uint32_t stop = end - first > CHUNK ? first + CHUNK : end;
-        for (uint32_t x = first; x < stop; x++) {
-            rgb[x - first] = pixel_at(backdrop, x, line);
-        }
+        read_line(backdrop, rgb, line, first, stop);
         format->store(row, first, stop, rgb);
         first = stop;
     }

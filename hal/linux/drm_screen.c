@@ -42,9 +42,27 @@ static const drmModeModeInfo *preferred(const drmModeConnector *connector)
     return connector->count_modes > 0 ? &connector->modes[0] : NULL;
 }
 
+/* As many as there is room for. */
+static void list_modes(const drmModeConnector *connector, char *names)
+{
+    size_t used = 0;
+    names[0] = '\0';
+    for (int i = 0; i < connector->count_modes; i++) {
+        const drmModeModeInfo *mode = &connector->modes[i];
+        int length = snprintf(names + used, LIST_BYTES - used, "%s%ux%u@%u", used == 0 ? "" : ", ",
+                              mode->hdisplay, mode->vdisplay, mode->vrefresh);
+        if (length < 0 || (size_t)length >= LIST_BYTES - used) {
+            names[used] = '\0';
+            return;
+        }
+        used += (size_t)length;
+    }
+}
+
 static int choose_mode(struct linux_drm *drm, const drmModeConnector *connector)
 {
     const drmModeModeInfo *mode = NULL;
+    char names[LIST_BYTES];
     uint32_t width;
     uint32_t height;
     uint32_t hz;
@@ -62,8 +80,10 @@ static int choose_mode(struct linux_drm *drm, const drmModeConnector *connector)
     }
     if (mode == NULL || mode->hdisplay < 1 || mode->hdisplay > OW_PANEL_SIZE_MAX ||
         mode->vdisplay < 1 || mode->vdisplay > OW_PANEL_SIZE_MAX) {
-        return note(drm, OW_UNSUPPORTED, "the screen has no such mode",
-                    "run `oldwell doctor --panel drm` to see its modes, or leave out --mode");
+        int status = note(drm, OW_UNSUPPORTED, "the screen has no such mode", "");
+        list_modes(connector, names);
+        linux_fault_remedy(&drm->fault, "leave out --mode, or give one of %s", names);
+        return status;
     }
     drm->mode = *mode;
     drm->info = (struct ow_panel_info){

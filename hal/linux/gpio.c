@@ -43,7 +43,7 @@ struct found {
 static bool number_of(const char *text, unsigned long *number)
 {
     char *end = NULL;
-    if (text[0] < '0' || text[0] > '9') {
+    if (text == NULL || text[0] < '0' || text[0] > '9') {
         return false;
     }
     errno = 0;
@@ -255,7 +255,7 @@ static int gpio_open(void *device, const struct ow_gpio_request *request)
     snprintf(name, sizeof name, "gpio %.40s%s%.40s", request->chip != NULL ? request->chip : "",
              request->chip != NULL ? ":" : "", request->line != NULL ? request->line : "");
     int status = check_request(gpio, request, name);
-    if (status < 0) {
+    if (status != OW_OK) {
         return status;
     }
     int slot = 0;

@@ -97,8 +97,8 @@ done
 # ---- trees anew ----
 picture() { # TREE FILE
     rm -f "$dir/frame"
-    "$oldwell" --panel file --device "$dir/frame" --size 64x48 --format rgb565 --still --once "$1" &&
-        mv "$dir/frame" "$2"
+    "$oldwell" --panel file --device "$dir/frame" --size 64x48 --format rgb565 --still --once \
+        "$1" && mv "$dir/frame" "$2"
 }
 picture "$dir/well.owt" "$dir/well.raw"
 picture "$dir/cubes.owt" "$dir/cubes.raw"
@@ -176,7 +176,8 @@ wrong_board "no value" 'panel\n' "wrong.conf:1: a setting is a line"
 wrong_board "a board in a board" 'board = x\n' "wrong.conf:1: a board file cannot name"
 head -c 70000 /dev/zero | tr '\0' '#' >"$dir/wrong.conf"
 refused "a board file without end" 1 'at most 64 KB' --board "$dir/wrong.conf" "$dir/well.owt"
-refused "no such board" 1 "there-is-none: cannot read the board" --board there-is-none "$dir/well.owt"
+refused "no such board" 1 "there-is-none: cannot read the board" \
+    --board there-is-none "$dir/well.owt"
 
 # ---- wrong use, missing devices ----
 refused "no tree" 2 'name the tree'
@@ -186,13 +187,16 @@ refused "no turn of 45 degrees" 2 'rotate takes' --rotate 45 "$dir/well.owt"
 refused "no depth of 24" 2 'depth takes' --depth 24 "$dir/well.owt"
 refused "a first view that there is not" 2 'first counts' --orbit 4 --first 4 "$dir/well.owt"
 refused "no D/C line" 2 '--dc gpiochip0:25' --panel ili9341 "$dir/well.owt"
-refused "no address" 2 'i2c-address takes' --panel ssd1306 --bus i2c --i2c-address 99 "$dir/well.owt"
+refused "no address" 2 'i2c-address takes' --panel ssd1306 --bus i2c --i2c-address 99 \
+    "$dir/well.owt"
 refused "no offset" 2 'offset takes' --panel st7735 --dc 1 --offset 2 "$dir/well.owt"
 refused "no such GPIO chip" 3 'none:25: there is no such chip' --panel ili9341 --dc none:25 \
     "$dir/well.owt"
-refused "no I2C bus" 3 '/none/i2c: open: ' --panel ssd1306 --bus i2c --device /none/i2c "$dir/well.owt"
+refused "no I2C bus" 3 '/none/i2c: open: ' --panel ssd1306 --bus i2c --device /none/i2c \
+    "$dir/well.owt"
 refused "no light" 2 'zero vector' --light 0,0,0 "$dir/well.owt"
-refused "a missing tree" 1 "none.owt: cannot read" --panel file --device "$dir/frame" "$dir/none.owt"
+refused "a missing tree" 1 "none.owt: cannot read" --panel file --device "$dir/frame" \
+    "$dir/none.owt"
 refused "no tree but a model" 1 "compile the model with owc" --panel file --device "$dir/frame" \
     "$dir/well.obj"
 refused "no polygon numbers" 1 "owc --keep-ids" --panel file --device "$dir/frame" --shade id \
@@ -200,8 +204,8 @@ refused "no polygon numbers" 1 "owc --keep-ids" --panel file --device "$dir/fram
 refused "no frame buffer" 3 "/none/fb: open: .*connect" --panel fbdev --device /none/fb \
     --console none "$dir/well.owt"
 refused "no video output" 3 "/none/video: open: " --panel v4l2 --device /none/video "$dir/well.owt"
-refused "no camera" 3 "/none/video: open: " --panel file --device "$dir/frame" --camera /none/video \
-    "$dir/well.owt"
+refused "no camera" 3 "/none/video: open: " --panel file --device "$dir/frame" \
+    --camera /none/video "$dir/well.owt"
 refused "no frame buffer but a file" 5 "FBIOGET_VSCREENINFO" --panel fbdev --console none \
     --device "$dir/well.obj" "$dir/well.owt"
 if [ "$(id -u)" != 0 ]; then

@@ -19,7 +19,7 @@ enum fake_kind { FAKE_NONE, FAKE_FB, FAKE_OUT, FAKE_CAMERA, FAKE_CONSOLE, FAKE_P
 enum { FAKE_FDS = 16, FAKE_MEMORY = 1 << 20, FAKE_BUFFERS = 6, FAKE_FIRST_FD = 1000 };
 
 struct fake_linux {
-    /* What there is: device nodes /dev/fb0, /dev/video1 (output), /dev/video0 (camera), /dev/tty0. */
+    /* What there is: /dev/fb0, /dev/video1 (output), /dev/video0 (camera), /dev/tty0. */
     struct fb_var_screeninfo mode;
     struct fb_fix_screeninfo fix;
     bool fb_keeps_depth; /* says yes to another depth and keeps its own */

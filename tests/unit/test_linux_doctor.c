@@ -18,6 +18,7 @@
 #include "boards/linux/pattern.h"
 #include "hal/linux/clock.h"
 #include "sim/sim_panel.h"
+#include "tests/unit/child.h"
 #include "tests/unit/fake_linux.h"
 
 /* ---- board files ---- */
@@ -214,20 +215,24 @@ static void a_missing_device_is_told_with_the_remedy(void **state)
     struct oldwell_settings settings = { .doctor = true,
                                          .panel = PANEL_FBDEV,
                                          .device = "/dev/there-is-none",
-                                         .board = "boards/none/board.conf" };
+                                         .board = "boards/none/board.conf",
+                                         .console = "/dev/tty0" };
     char text[2048];
     (void)state;
     fake_reset();
     assert_int_equal(round_of(&settings, text, sizeof text), 3);
     assert_non_null(strstr(text, "ok board: boards/none/board.conf\n"));
+    assert_non_null(strstr(text, "ok console: its text gives way to the picture\n"));
     assert_non_null(strstr(text, "not ok fbdev: /dev/there-is-none: No such file or directory; "));
-    assert_non_null(strstr(text, "1 right, 1 wrong\n"));
+    assert_non_null(strstr(text, "2 right, 1 wrong\n"));
 }
 
 static void a_good_display_is_described(void **state)
 {
-    char path[] = "/tmp/oldwell-doctor-XXXXXX";
-    int fd = mkstemp(path);
+    char folder[CHILD_PATH];
+    char path[CHILD_PATH];
+    folder_make(folder);
+    folder_path(path, folder, "frame");
     struct oldwell_settings settings = { .doctor = true,
                                          .panel = PANEL_FILE,
                                          .device = path,
@@ -235,15 +240,13 @@ static void a_good_display_is_described(void **state)
                                          .size = { 160, 128 } };
     char text[2048];
     (void)state;
-    assert_true(fd >= 0);
     memset(text, 0, sizeof text);
     struct report report = { .stream = fmemopen(text, sizeof text - 1, "w") };
     assert_int_equal(doctor_main(&report, &settings, &linux_system), 0);
     fclose(report.stream);
     assert_non_null(strstr(text, "ok panel: 160x128 pixels, rgb565, what changed is copied\n"));
     assert_non_null(strstr(text, "1 right, 0 wrong\n"));
-    close(fd);
-    remove(path);
+    folder_remove(folder);
 }
 
 int main(void)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: 0BSD */
-/* Displays by DRM: which screen, flips, another master, a card that goes; each call failing once. */
+/* Displays by DRM: which screen, flips, other masters, a card that goes; each call failing once. */
 #ifdef OLDWELL_DRM
 #include <setjmp.h>
 #include <stdarg.h>
@@ -432,6 +432,7 @@ static void screens_are_chosen(void **state)
     assert_int_equal(open_drm("HDMI-A-1", NULL), OW_GONE);
     assert_non_null(strstr(drm.fault.remedy, "HDMI-A-1 without a screen, HDMI-A-2"));
     assert_int_equal(open_drm(NULL, "320x240@60"), OW_UNSUPPORTED);
+    assert_non_null(strstr(drm.fault.remedy, "one of 640x480@60, 320x240@50"));
     assert_int_equal(open_drm(NULL, "320"), OW_UNSUPPORTED);
     assert_int_equal(open_drm(NULL, "320x240x"), OW_UNSUPPORTED);
     card.screen_is_there = false;

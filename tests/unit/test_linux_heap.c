@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "boards/linux/run.h"
+#include "tests/unit/child.h"
 #include "tests/unit/sim_scene.h"
 
 /* ---- counting ---- */
@@ -99,6 +100,7 @@ static void begin_counting(void)
 
 enum { WARM = 20, COUNTED = 100 };
 
+static char folder[CHILD_PATH];
 static struct linux_system system_calls;
 static uint32_t frames;
 static bool provoke; /* one call in the middle, to see that the test can fail */
@@ -120,8 +122,8 @@ static ssize_t count_frame(int fd, const void *bytes, size_t count)
 static void run_for_a_while(const char *tree)
 {
     static struct run run;
-    char path[] = "/tmp/oldwell-heap-XXXXXX";
-    int fd = mkstemp(path);
+    char path[CHILD_PATH];
+    folder_path(path, folder, "frame");
     struct oldwell_settings settings = {
         .tree = tree,
         .panel = PANEL_FILE,
@@ -141,8 +143,6 @@ static void run_for_a_while(const char *tree)
     assert_int_equal(run_main(&run, &settings, &system_calls), 0);
     assert_true(frames >= WARM + COUNTED);
     counting = false;
-    close(fd);
-    remove(path);
 }
 
 static void drawing_leaves_the_heap_alone(void **state)
@@ -157,21 +157,25 @@ static void drawing_leaves_the_heap_alone(void **state)
 
 static int make_tree(void **state)
 {
-    static char path[] = "/tmp/oldwell-heap-tree-XXXXXX";
-    int fd = mkstemp(path);
+    static char path[CHILD_PATH];
     uint32_t size;
     uint8_t *blob = scene_cube(&size);
     begin_counting();
     *state = path;
-    ssize_t written = write(fd, blob, size);
-    close(fd);
+    folder_make(folder);
+    folder_path(path, folder, "tree.owt");
+    FILE *stream = fopen(path, "wb");
+    size_t written = stream != NULL ? fwrite(blob, 1, size, stream) : 0;
+    bool good = stream != NULL && fclose(stream) == 0 && written == size;
     free(blob);
-    return written == (ssize_t)size ? 0 : -1;
+    return good ? 0 : -1;
 }
 
 static int remove_tree(void **state)
 {
-    return remove(*state);
+    (void)state;
+    folder_remove(folder);
+    return 0;
 }
 
 int main(void)

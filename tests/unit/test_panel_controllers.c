@@ -315,6 +315,41 @@ static void windows_cost_what_they_must(void **state)
     rig_close(&rig);
 }
 
+static void the_controller_is_asked_how_it_is(void **state)
+{
+    (void)state;
+    for (uint32_t c = 0; c < ow_controller_count; c++) {
+        const struct rig_options options = { .controller = ow_controllers[c]->name };
+        struct rig rig;
+        uint8_t answer = 0;
+        rig_begin(&rig, &options);
+        rig_open(&rig, &options);
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), OW_UNSUPPORTED);
+        assert_int_equal(ow_command_panel_start(&rig.device), OW_OK);
+        if (ow_controllers[c]->status_code == 0) {
+            assert_int_equal(ow_command_panel_ask(&rig.device, &answer), OW_UNSUPPORTED);
+            rig_close(&rig);
+            continue;
+        }
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 1);
+        assert_int_equal(answer, 0x98);
+        draw(&rig, false);
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 1);
+        assert_int_equal(answer, 0x9C);
+        rig_check(&rig);
+        rig.bus.controller.lit = false; /* somebody else did that */
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 0);
+        rig.bus.config.mute = true;
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 0);
+        assert_int_equal(answer, 0xFF);
+        rig.bus.config.fail_every = 1;
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), OW_BUS);
+        rig.bus.config.fail_every = 0;
+        draw(&rig, false); /* it was started anew */
+        rig_close(&rig);
+    }
+}
+
 static void a_bad_configuration_is_refused(void **state)
 {
     (void)state;
@@ -387,6 +422,7 @@ int main(void)
         cmocka_unit_test(a_rotation_set_later_needs_a_new_frame),
         cmocka_unit_test(the_age_says_what_the_glass_shows),
         cmocka_unit_test(windows_cost_what_they_must),
+        cmocka_unit_test(the_controller_is_asked_how_it_is),
         cmocka_unit_test(a_bad_configuration_is_refused),
         cmocka_unit_test(a_bad_rectangle_is_refused),
         cmocka_unit_test(names_are_found),

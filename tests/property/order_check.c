@@ -20,7 +20,8 @@
  *
  * Within a tolerance T of a plane means on it, as DESIGN.md says: then "in
  * front" is by more than T, and it is not wrong if the eye, or both p and q,
- * are within T of S: wrong are b > T, or a < -T and b > a.
+ * are within T of S: wrong are b > T, or a < -T and b > a. Rounding moves both
+ * p and q, by less than a step each.
  *
  * Corners are quotients of integers (exact.h), so a and b are quotients of
  * products of two; they are compared as integers of 512 bits. Rounded heights
@@ -233,10 +234,12 @@ static bool switch_is_wrong(const struct judge *j, const struct judged_face *p,
     if (big_sign(&a.value) <= 0) {
         return false;
     }
-    /* b > a: the margins that were taken off both are put back. */
+    /* b > a: the margins that were taken off both are put back, those of rounding excepted. */
+    const struct plane *plane = &j->check->arrangement->planes->all[s];
+    wide back = 2 * (wide)j->margins[s];
+    back -= j->check->repaired != NULL ? 2 * (wide)exact_tolerance(plane->n, 256) : 0;
     struct ratio least = { big_negate(a.value), a.weight };
-    struct big twice = big_product(big_of(2 * (wide)j->margins[s]), a.weight);
-    least.value = big_add(least.value, big_negate(twice));
+    least.value = big_add(least.value, big_negate(big_product(big_of(back), a.weight)));
     return is_less(&least, &b);
 }
 
@@ -315,6 +318,12 @@ static bool is_off(const struct judge *j, const struct judged_face *face, uint32
     return reaches(j, face, plane, 1) || reaches(j, face, plane, -1);
 }
 
+static bool both_reach(const struct judge *j, const struct judged_face *p,
+                       const struct judged_face *q, uint32_t plane, int way)
+{
+    return reaches(j, p, plane, way) && reaches(j, q, plane, way);
+}
+
 /*
  * The order shows p over q: always (way 0), or where the eye's height above s
  * has the sign of way. Is that wrong?
@@ -325,7 +334,8 @@ static bool is_wrong(struct judge *j, const struct judged_face *p, const struct 
     j->check->pairs++;
     if (p->plane == q->plane) {
         bool seen = s != p->plane || way != -p->sign;
-        bool there = s == ALWAYS || s == p->plane || (is_off(j, p, s) && is_off(j, q, s));
+        bool there =
+            s == ALWAYS || s == p->plane || both_reach(j, p, q, s, 1) || both_reach(j, p, q, s, -1);
         return seen && there && coplanar_is_wrong(j, p, q);
     }
     if (!reaches(j, q, p->plane, p->sign) || !reaches(j, p, q->plane, -q->sign)) {

@@ -37,29 +37,18 @@ static int compare_records(const void *left, const void *right)
 
 static void list_records(struct arrangement *a, const struct mesh *mesh)
 {
-    a->record_first = xalloc_zero((size_t)mesh->point_count + 2, sizeof *a->record_first);
-    uint32_t *first = a->record_first + 1;
-    size_t all = 0;
-    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
-            first[mesh->corners[mesh->polygons[i].first + k] + 1]++;
-        }
-        all += mesh->polygons[i].count;
-    }
-    for (uint32_t i = 0; i < mesh->point_count; i++) {
-        first[i + 1] += first[i];
-    }
-    a->records = xalloc(all, sizeof *a->records);
-    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
-            uint32_t point = mesh->corners[mesh->polygons[i].first + k];
-            a->records[first[point]++] = mesh->polygons[i].record;
-        }
+    struct mesh_around around;
+    mesh_around_find(&around, mesh);
+    a->record_first = around.first;
+    a->records = xalloc(around.first[mesh->point_count], sizeof *a->records);
+    for (size_t i = 0; i < around.first[mesh->point_count]; i++) {
+        a->records[i] = mesh->polygons[around.all[i].polygon].record;
     }
     for (uint32_t i = 0; i < mesh->point_count; i++) {
         qsort(a->records + a->record_first[i], a->record_first[i + 1] - a->record_first[i],
               sizeof *a->records, compare_records);
     }
+    free(around.all);
 }
 
 void arrangement_begin(struct arrangement *a, const struct mesh *mesh, const struct planes *planes)

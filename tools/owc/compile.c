@@ -51,7 +51,7 @@ static void build_tree(struct compiler *c)
                    &progress);
     progress_end(&progress);
     if (options->explain != NULL) {
-        explain_cuts(options->explain, &c->mesh, &c->pieces, c->pieces.splits, c->planes.count);
+        explain_cuts(options->explain, &c->mesh, &c->arrangement, &c->pieces, c->pieces.splits);
     }
 }
 

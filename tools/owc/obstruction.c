@@ -25,6 +25,9 @@
 /* Faces of a model up to which no effort is spared; larger ones get less. */
 enum { SMALL_MODEL = 20000 };
 
+/* Faces in one plane from which on their order is not searched for. */
+enum { MANY_FLAT = 4096 };
+
 static const struct obstruction_effort great_effort = { .own = 64,
                                                         .edges = 400,
                                                         .directions = 13,
@@ -286,10 +289,54 @@ static void put_chunk(struct builder *b, const struct obstruction_set *set, cons
     b->placed += count;
 }
 
+static bool is_flat(const struct obstruction_set *set)
+{
+    uint32_t i = 1;
+    while (i < set->count && set->faces[i].plane == set->faces[0].plane) {
+        i++;
+    }
+    return i == set->count;
+}
+
+/*
+ * Faces in one plane, in the file's order: no search for components, which takes
+ * long where very many lie on one another.
+ */
+static void make_flat_sequence(struct builder *b, const struct obstruction_set *set,
+                               struct place place)
+{
+    struct by_file *sorted = xalloc(set->count, sizeof *sorted);
+    uint32_t *faces = xalloc(set->count, sizeof *faces);
+    for (uint32_t i = 0; i < set->count; i++) {
+        sorted[i] = (struct by_file){ set->faces[i].polygon, i };
+    }
+    qsort(sorted, set->count, sizeof *sorted, compare_by_file);
+    for (uint32_t i = 0; i < set->count; i++) {
+        faces[i] = sorted[i].item;
+    }
+    uint32_t node = tree_add_node(b->tree, MESH_NONE);
+    size_t first = b->tree->item_count;
+    for (uint32_t i = 0; i < set->count; i += CHUNK_MOST) {
+        tree_add_item(b->tree, node, OW_ITEM_NONE); /* put below */
+    }
+    put(b, place, tree_item_of(OW_ITEM_NODE, node));
+    for (uint32_t i = 0; i < set->count; i += CHUNK_MOST) {
+        uint32_t count = set->count - i < CHUNK_MOST ? set->count - i : CHUNK_MOST;
+        struct place chunk = { SLOT_ITEM, first + i / CHUNK_MOST };
+        put_chunk(b, set, faces + i, count, chunk);
+    }
+    free(sorted);
+    free(faces);
+}
+
 static void make_sequence(struct builder *b, struct obstruction_set *set, struct place place)
 {
     struct components c;
     uint32_t count;
+    if (set->count >= MANY_FLAT && is_flat(set)) {
+        make_flat_sequence(b, set, place);
+        return;
+    }
     components_find(&c, set);
     if (c.count == 1 && set->count > 1) {
         make_switch(b, set, c.faces, set->count, place);

@@ -106,6 +106,7 @@ static bool write_checked(struct compiler *c, struct blob *blob, const struct mo
                                 .colours = model->colours,
                                 .colour_count = (uint32_t)model->colour_count,
                                 .tolerance_q8 = c->options->tolerance_q8,
+                                .limits = c->options->limits,
                                 .two_sided = c->two_sided,
                                 .switch_only = c->options->method != METHOD_OBSTRUCTION &&
                                                tree_is_switch_only(&c->tree),

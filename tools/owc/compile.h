@@ -34,6 +34,7 @@ struct compile_options {
     bool keep_normals;
     bool compute_normals; /* instead of the model's own */
     double crease;        /* degrees; see normals_compute */
+    const struct blob_limits *limits; /* of the tree; NULL: the format's */
     bool progress;
 };
 

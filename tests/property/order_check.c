@@ -53,7 +53,7 @@ struct judge {
     uint32_t *corners; /* vertices of the arrangement, or corners of the outlines */
     size_t corner_count;
     size_t corner_capacity;
-    int64_t *margins; /* by plane: T |n|, and how far its own faces' corners may be off it */
+    int64_t *margins; /* by plane: T |n| */
     bool *met;        /* by item */
 };
 
@@ -65,13 +65,32 @@ struct height {
 
 /* ---- heights ---- */
 
-static int64_t margin_of(const struct judge *j, const struct plane *plane)
+/* How far corners are off their own plane at most, lattice steps with 8 fraction bits. */
+static uint32_t most_reach_q8(const struct planes *planes)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < planes->count; i++) {
+        const struct plane *plane = &planes->all[i];
+        uint32_t q8 = 0;
+        while (plane->reach > exact_tolerance(plane->n, q8)) {
+            q8++;
+        }
+        most = q8 > most ? q8 : most;
+    }
+    return most;
+}
+
+static void set_margins(struct judge *j)
 {
     const struct arrangement *a = j->check->arrangement;
-    uint32_t q8 = j->check->tolerance_q8;
+    uint32_t q8 = j->check->tolerance_q8 + most_reach_q8(a->planes);
     q8 += a->rounded > 0 ? 256 : 0; /* some cuts were put on the lattice at once */
     q8 += j->check->repaired != NULL ? 256 : 0;
-    return exact_tolerance(plane->n, q8) + plane->reach;
+    j->check->margin_q8 = q8;
+    j->margins = xalloc(a->planes->count, sizeof *j->margins);
+    for (uint32_t i = 0; i < a->planes->count; i++) {
+        j->margins[i] = exact_tolerance(a->planes->all[i].n, q8);
+    }
 }
 
 static const double *double_at(const struct judge *j, uint32_t corner, double out[3])
@@ -476,14 +495,10 @@ static bool meet(struct judge *j, tree_item item)
 
 bool order_is_right(struct order_check *check)
 {
-    const struct planes *planes = check->arrangement->planes;
     struct judge j = { .check = check };
     check->pairs = check->decisive = check->faces = 0;
     check->wrong_plane = MESH_NONE;
-    j.margins = xalloc(planes->count, sizeof *j.margins);
-    for (uint32_t i = 0; i < planes->count; i++) {
-        j.margins[i] = margin_of(&j, &planes->all[i]);
-    }
+    set_margins(&j);
     j.met = xalloc_zero((size_t)check->pieces->count << OW_ITEM_TAG_BITS, sizeof *j.met);
     bool right = meet(&j, check->tree->root);
     free(j.margins);

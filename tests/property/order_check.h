@@ -26,6 +26,7 @@ struct order_check {
     uint64_t pairs;     /* that were judged */
     uint64_t decisive;  /* of these, where one can hide the other */
     uint32_t faces;     /* met */
+    uint32_t margin_q8; /* what counts as nothing, lattice steps; 0: judged strictly */
     tree_item wrong[2]; /* the first pair that is wrong: hiding, hidden */
     uint32_t wrong_plane;
 };

@@ -51,6 +51,7 @@ struct command {
     double tolerance;
     int dividing;
     bool repair;
+    bool merge;
     bool explain;
     bool locate_given;
     bool planes_given;
@@ -73,6 +74,9 @@ static const char notes[] =
     "--dividing axis, planes along the axes are found at gaps. Both divide before polygons do.\n"
     "--insert adds polygons one after the other to a tree of --method bsp or online, with the\n"
     "tolerance, sides and kinds of records that the tree has.\n"
+    "--merge joins neighbours of one plane and colour into convex polygons; each has the number "
+    "of\n"
+    "its first one in the file, and edges inside are not drawn by --shade lines.\n"
     "--locate says in which convex region of a tree of switches a point lies.\n"
     "Without --method, an option of bsp alone chooses bsp, all else obstruction. The default\n"
     "tolerance of obstruction is 0.0005, that of the others 0.\n";
@@ -102,6 +106,9 @@ static void check_bsp_usage(const struct option_table *table, const struct comma
     }
     if (!bsp && (c->planes_file != NULL || c->dividing != 0)) {
         options_wrong(table, "dividing planes go with --method bsp");
+    }
+    if (c->merge && c->insert != NULL) {
+        options_wrong(table, "--merge does not go with --insert");
     }
 }
 
@@ -181,6 +188,8 @@ static void parse(struct command *c, int argc, char **argv)
           .choices = NULL },
         { "plot", 0, OPTION_STRING, &c->plot, "FILE.svg", "draw the tree", .choices = NULL },
         { "explain", 0, OPTION_FLAG, &c->explain, NULL, "print what was split by what",
+          .choices = NULL },
+        { "merge", 0, OPTION_FLAG, &c->merge, NULL, "join coplanar neighbours first",
           .choices = NULL },
         { "repair", 0, OPTION_FLAG, &c->repair, NULL, "turn closed parts that look inwards",
           .choices = NULL },
@@ -310,6 +319,7 @@ static void compile_new(const struct command *c)
         .crease = c->crease,
         .check = true,
         .repair = c->repair,
+        .merge = c->merge,
         .progress = true,
     };
     if (c->planes_file != NULL && !user_planes_read_file(&planes, c->planes_file, &problem)) {

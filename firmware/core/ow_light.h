@@ -39,6 +39,19 @@ static inline int32_t ow_shine_directional(const struct ow_shader *shader, const
     return sum;
 }
 
+/* Sets a directional light, whose intensity is known, from its direction in model axes. */
+static inline void ow_light_set_direction(struct ow_ready_light *light,
+                                          const int32_t towards_q14[3])
+{
+    for (uint32_t i = 0; i < 3; i++) {
+        int32_t t = towards_q14[i];
+        t = t > 1 << 14 ? 1 << 14 : t < -(1 << 14) ? -(1 << 14) : t;
+        int64_t along = (int64_t)t * light->intensity_q8;
+        light->towards_q14[i] = (int16_t)t;
+        light->light_q16[i] = (int32_t)((along * OW_PER_NORMAL_Q22) >> (14 + 22 - 16));
+    }
+}
+
 /* A sum of light as intensity, 65536 for full. */
 static inline int32_t ow_intensity_q16(int32_t sum)
 {

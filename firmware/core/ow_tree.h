@@ -27,6 +27,8 @@ struct ow_tree {
     uint32_t vertices_at;
     uint32_t normals_at;
     uint32_t colours_at;
+    uint32_t instances_at;
+    uint32_t instance_count;
     uint32_t corners_in_record; /* where a polygon's corners begin: 6, or 10 with ids */
     int16_t box_min[3];         /* lattice units */
     int16_t box_max[3];
@@ -37,9 +39,12 @@ struct ow_tree {
  * count, child and depth. After OW_OK, walking and drawing need no check and
  * cannot leave the blob. Uses no memory but *tree. size may exceed the blob.
  * Errors: OW_TRUNCATED, OW_MAGIC, OW_VERSION, OW_CHECKSUM, OW_CORRUPT; *tree
- * is then all zero.
+ * is then all zero. OW_UNSUPPORTED: it has instances.
  */
 enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t size);
+
+/* The same for trees that may have instances. */
+enum ow_status ow_tree_open_instances(struct ow_tree *tree, const void *bytes, uint32_t size);
 
 /* zlib's CRC-32 of size bytes, continued from crc (0 to start); of bytes of a blob. */
 uint32_t ow_crc32(uint32_t crc, const void *bytes, uint32_t size);

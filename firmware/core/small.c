@@ -10,12 +10,6 @@
 #include "scan_low.h"
 #include "walk_step.h"
 
-#if defined(__GNUC__)
-#define OW_INLINE __attribute__((always_inline)) inline
-#else
-#define OW_INLINE inline
-#endif
-
 enum { CORNERS = 8 }; /* of a face that goes the fast way, at most */
 
 /* What the loop reads over and over. */

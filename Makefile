@@ -41,7 +41,7 @@ link        = $(CC) $(CFLAGS) $(sanitize) $(LDFLAGS) $(private_ldflags)
 
 # ---- sources, by folder -------------------------------------------------------------------------
 core_src   := $(wildcard firmware/core/*.c)
-owsim_src  := $(wildcard firmware/viewer/*.c hal/panel/*.c sim/*.c boards/sim/*.c)
+owsim_src  := $(wildcard firmware/viewer/*.c firmware/device/*.c hal/panel/*.c sim/*.c boards/sim/*.c)
 common_src := $(wildcard tools/common/*.c)
 owgen_src  := $(wildcard tools/owgen/*.c)
 owc_src    := $(wildcard tools/owc/*.c)

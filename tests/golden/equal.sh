@@ -45,7 +45,7 @@ background() {
     "$O/owsim" "$work/tree.owt" "${options[@]}" --background 000000 -o "$work/black/%02d.ppm" &&
         "$O/owsim" "$work/tree.owt" "${options[@]}" --background ffffff -o "$work/white/%02d.ppm" \
             --compare "$work/black" --diff-dir "$work/black" 2>/dev/null |
-        awk '/pixels differ/ { sum += $2 } END { print sum }'
+        awk '/pixels differ/ { sum += $2 } END { printf "%d\n", sum }'
     rm -rf "$work/black" "$work/white"
 }
 
@@ -57,7 +57,7 @@ count() {
     fi
 }
 
-# equal NAME SIZE SHADE UNLIT: all ways to draw the tree at hand.
+# equal NAME SIZE SHADE EMPTY: all ways to draw the tree at hand.
 equal() {
     local name="$1 $2 $3" size=$2 order lines threads crc few pixels bad=0 begin=$SECONDS
     local options=(--orbit 16 --size "$size" --shade "$3")
@@ -87,7 +87,7 @@ equal() {
 
 # scene NAME MODEL SIZE...: compiles and draws.
 scene() {
-    local name=$1 model=$2 size shade unlit
+    local name=$1 model=$2 size shade empty
     shift 2
     # shellcheck disable=SC2053 # a pattern is meant
     [[ $name == ${SCENES:-*} ]] || return 0
@@ -97,9 +97,9 @@ scene() {
         return
     fi
     for size in "$@"; do
-        unlit=$(background "$size")
+        empty=$(background "$size")
         for shade in flat gouraud phong; do
-            equal "$name" "$size" $shade "$unlit"
+            equal "$name" "$size" $shade "$empty"
         done
     done
 }

@@ -26,6 +26,7 @@
 #include "tools/common/xalloc.h"
 #include "tools/owc/clean.h"
 #include "tools/owc/obstruction.h"
+#include "tools/owc/obstruction_faces.h"
 #include "tools/owc/plane.h"
 #include "tools/owc/strategy.h"
 
@@ -269,6 +270,7 @@ static bool judge(const struct small_scene *scene, uint64_t number, const struct
                                  .arrangement = &c.arrangement,
                                  .pieces = &c.pieces,
                                  .tree = &c.tree,
+                                 .doubt = way->method == METHOD_OBSTRUCTION ? OBSTRUCTION_DOUBT : 0,
                                  .tolerance_q8 = c.tolerance_q8 };
     bool *drawn = xalloc_zero(c.pieces.count, sizeof *drawn);
     bool whole = areas_are_right(&c, drawn);

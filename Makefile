@@ -224,6 +224,10 @@ install: programs ## owgen, owc and owsim into DESTDIR/prefix/bin
 clean: ## remove what was built, packages fetched for other machines excepted
 	rm -rf $(O)/obj $(O)/tests $(O)/*.a $(O)/owgen $(O)/owc $(O)/owsim $(O)/owbench
 
+.PHONY: equal
+equal: programs ## every surface, band and number of threads at both sizes: one picture (20 minutes)
+	@tests/golden/equal.sh --all
+
 .PHONY: bench
 bench: programs ## the orders, shades and threads side by side (minutes)
 	@scripts/bench

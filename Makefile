@@ -173,9 +173,9 @@ submake = @+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$
 
 .PHONY: help demo check check-all check-rest format golden-update fuzz install clean FORCE
 help: ## show this list
-	@grep -hE '^[a-z-]+:.*## ' $(firstword $(MAKEFILE_LIST)) | sort | \
+	@grep -hE '^[a-z0-9-]+:.*## ' Makefile mk/*.mk | sort | \
 	    while IFS= read -r l; do printf '  make %-14s%s\n' "$${l%%:*}" "$${l#*## }"; done
-	@echo '  make                build/owgen, build/owc and build/owsim'
+	@echo '  make                build/owgen, build/owc, build/owsim and build/oldwell'
 	@echo 'Variables: O=folder CC=compiler CFLAGS=... SAN=1 (sanitizers) WERROR=1 STRICT=1 V=1'
 
 demo: ## the Old Well in one turn: pictures in build/demo
@@ -210,7 +210,7 @@ fuzz: ## libFuzzer on every target, FUZZ_SECONDS each (600)
 	    CFLAGS='-O1 -g -fsanitize=fuzzer-no-link' SAN=1 fuzzers
 	@scripts/fuzz
 
-install: programs ## owgen, owc and owsim into DESTDIR/prefix/bin
+install: programs ## the programs, with all that oldwell needs on a board, below DESTDIR/prefix
 	install -d $(DESTDIR)$(prefix)/bin
 	install -m 755 $(O)/owgen $(O)/owc $(O)/owsim $(DESTDIR)$(prefix)/bin
 

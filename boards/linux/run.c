@@ -99,15 +99,6 @@ static void close_display(struct run *run)
 
 /* ---- the viewer ---- */
 
-static int no_input(void *device, struct ow_input_event *event)
-{
-    (void)device;
-    (void)event;
-    return OW_AGAIN;
-}
-
-static const struct ow_input_ops no_input_ops = { no_input };
-
 static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tree *tree)
 {
     const struct oldwell_settings *s = run->settings;
@@ -125,7 +116,7 @@ static struct ow_viewer_config viewer_config(struct run *run, const struct ow_tr
         .find_changes = run->output.uses_changes,
         .panel = &run->output.panel,
         .clock = &run->clock,
-        .input = &run->input,
+        .input = &run->controls.input,
         .wait = &run->wait,
         .quarter_turns = (uint8_t)(s->rotate / 90),
         .probe = s->stats ? stats_probe : NULL,
@@ -255,8 +246,10 @@ static int step(struct run *run)
     return status;
 }
 
-static void serve_events(struct run *run)
+/* OW_OK, or what the display says of itself. */
+static int serve_events(struct run *run)
 {
+    int status = OW_OK;
     events_look(&run->events);
     if (run->events.reload) {
         run->events.reload = false;
@@ -265,6 +258,8 @@ static void serve_events(struct run *run)
     if (run->events.second) {
         run->events.second = false;
         camera_second(&run->camera);
+        controls_second(&run->controls);
+        status = output_look(&run->output);
         if (run->settings->stats) {
             stats_print(&run->stats);
         }
@@ -272,6 +267,7 @@ static void serve_events(struct run *run)
     if (camera_look(&run->camera)) {
         ow_viewer_refresh(&run->viewer);
     }
+    return status;
 }
 
 /* Failures in a row, each recovered from at once, must not keep it busy for ever. */
@@ -281,12 +277,12 @@ static int loop(struct run *run)
 {
     uint32_t failures = 0;
     while (!run->events.stop) {
-        serve_events(run);
+        int status = serve_events(run);
         pause_until(run, run->next_us);
         if (run->events.stop) {
             break;
         }
-        int status = step(run);
+        status = status < 0 ? status : step(run);
         if (status >= 0) {
             failures = status > 0 ? 0 : failures;
             continue;
@@ -320,8 +316,9 @@ static int open_all(struct run *run)
         warn_line(s->tree, 0, "the tree has no polygon numbers, compile it with owc --keep-ids");
         return FAIL_INPUT;
     }
-    if (!events_open(&run->events, &run->waiting) ||
-        ((s->stats || s->camera != NULL) && !events_tick(&run->events))) {
+    bool ticks = s->stats || s->camera != NULL || s->input != NULL ||
+                 (output_kind_of(s) != NULL && output_kind_of(s)->look != NULL);
+    if (!events_open(&run->events, &run->waiting) || (ticks && !events_tick(&run->events))) {
         warn_line(NULL, 0, "signals cannot be waited for: %s", strerror(errno));
         return FAIL_DEVICE;
     }
@@ -333,6 +330,11 @@ static int open_all(struct run *run)
     int status = camera_start(&run->camera, s, run->system, &run->waiting);
     if (status < 0) {
         say_fault(&run->camera.device.video.fault, "");
+        return run_exit_status(status);
+    }
+    status = controls_open(&run->controls, s, run->system, linux_gpio_installed, &run->waiting);
+    if (status < 0) {
+        say_fault(&run->controls.fault, "");
         return run_exit_status(status);
     }
     camera_wait(&run->camera);
@@ -359,9 +361,10 @@ int run_main(struct run *run, const struct oldwell_settings *settings,
     *run = (struct run){ .settings = settings, .system = system };
     linux_wait_init(&run->waiting, system);
     linux_wait_init(&run->quiet, system);
+    run->controls.wait = &run->waiting; /* may be closed before it was opened */
+    linux_gpio_init(&run->controls.gpio, &(struct linux_gpio_config){ .lib = NULL });
     run->wait = (struct ow_wait){ &linux_wait_ops, &run->waiting };
     run->clock = (struct ow_clock){ &linux_clock_ops, (void *)(uintptr_t)system };
-    run->input = (struct ow_input){ &no_input_ops, NULL };
     run->frame_us = SECOND_US / settings->fps;
     run->events = (struct events){ .wait = &run->waiting, .signals = -1, .watch = -1, .timer = -1 };
     stats_begin(&run->stats, system);
@@ -370,6 +373,7 @@ int run_main(struct run *run, const struct oldwell_settings *settings,
         status = loop(run);
     }
     camera_stop(&run->camera);
+    controls_close(&run->controls);
     close_display(run);
     events_close(&run->events);
     free(run->memory);

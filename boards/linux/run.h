@@ -7,6 +7,7 @@
 #define OLDWELL_BOARDS_LINUX_RUN_H
 
 #include "camera.h"
+#include "controls.h"
 #include "events.h"
 #include "firmware/viewer/viewer.h"
 #include "hal/linux/wait.h"
@@ -22,7 +23,7 @@ struct run {
     struct linux_wait quiet; /* signals alone: to sleep through all else */
     struct ow_wait wait;
     struct ow_clock clock;
-    struct ow_input input;
+    struct controls controls;
     struct events events;
     struct output output;
     struct camera camera;

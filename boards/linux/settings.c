@@ -140,6 +140,21 @@ static size_t add_bus(struct option_spec *to, struct oldwell_settings *s, struct
     return sizeof these / sizeof these[0];
 }
 
+static size_t add_input(struct option_spec *to, struct oldwell_settings *s)
+{
+    const struct option_spec these[] = {
+        { "buttons", 0, OPTION_STRING, &s->buttons, "CONTROL=LINE,...",
+          .help = "GPIO lines that are low when pressed (! turns it round): left=23,right=24" },
+        { "knobs", 0, OPTION_STRING, &s->knobs, "CONTROL=A+B,...",
+          .help = "rotary encoders of two lines: knob1=5+6" },
+        { "input", 0, OPTION_STRING, &s->input, "DEV,...",
+          .help = "keys and joysticks, by path (/dev/input/event0) or name" },
+        { "grab", 0, OPTION_FLAG, &s->grab, NULL, .help = "nobody else sees their events" },
+    };
+    memcpy(to, these, sizeof these);
+    return sizeof these / sizeof these[0];
+}
+
 static size_t add_look(struct option_spec *to, struct oldwell_settings *s, struct raw *raw)
 {
     const struct option_spec these[] = {
@@ -227,6 +242,7 @@ static void set_defaults(struct oldwell_settings *s, struct raw *raw)
     }
     size_t count = add_panel(specs, s, raw);
     count += add_bus(specs + count, s, raw);
+    count += add_input(specs + count, s);
     count += add_look(specs + count, s, raw);
     count += add_run(specs + count, s);
     table = (struct option_table){ usage, about, specs, count, 0, 2, notes };

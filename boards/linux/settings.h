@@ -55,6 +55,12 @@ struct oldwell_settings {
     bool mirror_x;
     bool mirror_y;
 
+    /* Input. */
+    const char *buttons; /* CONTROL=LINE ... */
+    const char *knobs;   /* CONTROL=LINE+LINE ... */
+    const char *input;   /* event devices by path or name, separated by commas */
+    bool grab;
+
     /* The view. */
     struct ow_look look;
     double fov;

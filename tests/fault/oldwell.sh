@@ -150,6 +150,12 @@ why=''
 verdict "--fps 10 draws ten a second" "$why"
 end "SIGTERM ends it in motion" TERM 0
 
+"$oldwell" --panel file --device "$dir/frame" --size 64x48 --stats "$dir/well.owt" \
+    2> >(exec 2>&- true) </dev/null &
+pid=$!
+sleep 2.5
+end "nobody reads its figures: it goes on" TERM 0
+
 # ---- board files ----
 mkdir "$dir/board"
 printf 'panel = file\ndevice = %s\nsize = 64x48\nonce = yes\n' "$dir/frame" >"$dir/board/board.conf"

@@ -12,7 +12,7 @@ static uint32_t words_for(uint32_t width)
 
 static uint32_t runs_for(uint32_t width)
 {
-    uint32_t runs = width / 4;
+    uint32_t runs = width / 8;
     return runs < OW_CHANGES_RUNS_MIN   ? OW_CHANGES_RUNS_MIN
            : runs > OW_CHANGES_RUNS_MAX ? OW_CHANGES_RUNS_MAX
                                         : runs;

@@ -19,7 +19,7 @@ struct ow_change {
 };
 
 /*
- * Capacities. A line has as many runs of its own as its width over 4, within
+ * Capacities. A line has as many runs of its own as its width over 8, within
  * these bounds: further ones are joined to the last. The list has room for three
  * rectangles for each two lines of the frame: when it is full, its last one
  * holds whatever has changed below.

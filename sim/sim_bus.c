@@ -35,12 +35,14 @@ static int bus_command(void *device, uint8_t code, const uint8_t *parameters, ui
         sim_complain(&bus->controller, "code %02X while pixels are under way", code);
     }
     if (status < 0) { /* the code gets through, and half of the rest */
-        sim_controller_tear(&bus->controller);
         count /= 2;
     }
     bus->command_bytes += 1 + count + (bus->config.i2c ? (uint32_t)I2C_BYTES : 0);
     put(bus, false, &code, 1);
     put(bus, !as_commands, parameters, count);
+    if (status < 0) {
+        sim_controller_tear(&bus->controller);
+    }
     return status;
 }
 
@@ -106,6 +108,22 @@ static int bus_done(void *device, uint32_t pending)
     return OW_OK;
 }
 
+static int bus_read(void *device, uint8_t code, uint8_t *answer, uint32_t count)
+{
+    struct sim_bus *bus = device;
+    int status = count_call(bus);
+    if (status < 0) {
+        sim_controller_tear(&bus->controller);
+        return status;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (bus->config.mute || !sim_controller_answer(&bus->controller, code, &answer[i])) {
+            answer[i] = 0xFF;
+        }
+    }
+    return OW_OK;
+}
+
 static int bus_reset(void *device, uint32_t hold_us, uint32_t settle_us)
 {
     struct sim_bus *bus = device;
@@ -128,15 +146,10 @@ static int bus_limits(void *device, struct ow_bus_limits *limits)
 }
 
 /* By whether there are a RESET line and a `done`. */
+#define ALWAYS .command = bus_command, .pixels = bus_pixels, .limits = bus_limits, .read = bus_read
 static const struct ow_bus_ops bus_ops[2][2] = {
-    { { .command = bus_command, .pixels = bus_pixels, .limits = bus_limits },
-      { .command = bus_command, .pixels = bus_pixels, .limits = bus_limits, .done = bus_done } },
-    { { .command = bus_command, .pixels = bus_pixels, .limits = bus_limits, .reset = bus_reset },
-      { .command = bus_command,
-        .pixels = bus_pixels,
-        .limits = bus_limits,
-        .done = bus_done,
-        .reset = bus_reset } },
+    { { ALWAYS }, { ALWAYS, .done = bus_done } },
+    { { ALWAYS, .reset = bus_reset }, { ALWAYS, .reset = bus_reset, .done = bus_done } },
 };
 
 bool sim_bus_open(struct sim_bus *bus, const struct sim_bus_config *config)

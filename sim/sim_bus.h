@@ -11,6 +11,7 @@ struct sim_bus_config {
     const struct sim_module *module;
     struct ow_bus_limits limits;
     bool no_reset;  /* there is no RESET line */
+    bool mute;      /* the controller's answers do not come through */
     uint32_t delay; /* pixels leave when `done` has been asked so often; 0: at once, no `done` */
     bool i2c;       /* each transfer begins with an address and a control byte */
     /* Faults: every n-th call, and the n-th call, fail in the middle; 0: none does. */

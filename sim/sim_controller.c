@@ -355,6 +355,21 @@ void sim_controller_byte(struct sim_controller *controller, bool data, uint8_t b
     sim_memory_byte(controller, byte);
 }
 
+bool sim_controller_answer(struct sim_controller *controller, uint8_t code, uint8_t *answer)
+{
+    finish_command(controller);
+    check_time(controller, code);
+    controller->command = NULL;
+    controller->writing = false;
+    if (controller->module.kind != SIM_DCS || code != 0x0A) {
+        return false;
+    }
+    /* The booster, awake, normal mode, lit. */
+    *answer =
+        (uint8_t)((controller->awake ? 0x80 | 0x10 : 0) | 0x08 | (controller->lit ? 0x04 : 0));
+    return true;
+}
+
 void sim_controller_release(struct sim_controller *controller)
 {
     if (controller->unit_filled != 0) {

@@ -147,6 +147,9 @@ void sim_controller_tear(struct sim_controller *controller);
 /* What the glass shows at its x, y, as the module's bits mean it; -1: dark. */
 int32_t sim_controller_glass(const struct sim_controller *controller, uint32_t x, uint32_t y);
 
+/* What a controller that can be read answers to a code; false: nothing, it keeps its line high. */
+bool sim_controller_answer(struct sim_controller *controller, uint8_t code, uint8_t *answer);
+
 /* For the parts of the model. */
 void sim_complain(struct sim_controller *controller, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

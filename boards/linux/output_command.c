@@ -228,6 +228,16 @@ static void examine_command(const struct output *output, struct report *report)
         report_note(report, "bus", "a whole frame takes %u ms at least",
                     (unsigned)((uint64_t)frame * 8000 / limits.clock_hz));
     }
+    uint8_t answer = 0;
+    int asked = ow_command_panel_ask(&the.panel, &answer);
+    if (asked == 1) {
+        report_good(report, "answer", "the controller says 0x%02x: awake", answer);
+    } else if (asked == 0) {
+        report_note(report, "answer",
+                    "the controller says 0x%02x: either MISO is not connected, as on many modules, "
+                    "or it did not understand",
+                    answer);
+    }
     if (!the.on_i2c && limits.max_bytes <= 4096 && frame > 4096) {
         report_note(report, "bufsiz",
                     "spidev.bufsiz=65536 on the kernel's command line makes transfers longer");

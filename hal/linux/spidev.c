@@ -13,6 +13,8 @@
 enum {
     USUAL_BUFSIZ = 4096, /* spidev's, where its parameter cannot be read */
     SMALLEST = 16,       /* below this a transfer that is too long is an error */
+    READ_MAX = 16,       /* bytes */
+    READ_HZ = 4000000,
     USUAL_TRANSFER_US = 25,
     SECOND_US = 1000000
 };
@@ -193,6 +195,41 @@ static int spi_pixels(void *device, const uint8_t *bytes, uint32_t count)
     return status < 0 ? status : send(spidev, bytes, count);
 }
 
+/*
+ * Chip select stays between the code and the answer. Answers of several bytes
+ * come a bit later. Reading is slower than writing in all data sheets.
+ */
+static int spi_read(void *device, uint8_t code, uint8_t *answer, uint32_t count)
+{
+    struct linux_spidev *spidev = device;
+    struct spi_ioc_transfer messages[2];
+    uint8_t bytes[READ_MAX + 1] = { 0 };
+    if (count == 0 || count > READ_MAX) {
+        return OW_ARGUMENT;
+    }
+    int status = set_data(spidev, 0);
+    if (status < 0) {
+        return status;
+    }
+    memset(messages, 0, sizeof messages);
+    for (int i = 0; i < 2; i++) {
+        messages[i].speed_hz =
+            spidev->config.clock_hz < READ_HZ ? spidev->config.clock_hz : (uint32_t)READ_HZ;
+        messages[i].bits_per_word = 8;
+    }
+    messages[0].tx_buf = (uintptr_t)&code;
+    messages[0].len = 1;
+    messages[1].rx_buf = (uintptr_t)bytes;
+    messages[1].len = count > 1 ? count + 1 : 1;
+    if (linux_ioctl(spidev->config.system, spidev->fd, SPI_IOC_MESSAGE(2), messages) < 0) {
+        return failed(spidev, "SPI_IOC_MESSAGE");
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        answer[i] = (uint8_t)(count > 1 ? bytes[i] << 1 | bytes[i + 1] >> 7 : bytes[i]);
+    }
+    return OW_OK;
+}
+
 static int spi_reset(void *device, uint32_t hold_us, uint32_t settle_us)
 {
     struct linux_spidev *spidev = device;
@@ -215,6 +252,7 @@ static int spi_limits(void *device, struct ow_bus_limits *limits)
 const struct ow_bus_ops linux_spidev_ops = {
     .command = spi_command,
     .pixels = spi_pixels,
+    .read = spi_read,
     .reset = spi_reset,
     .limits = spi_limits,
 };

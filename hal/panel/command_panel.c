@@ -513,6 +513,24 @@ int ow_command_panel_open(struct ow_command_panel *device,
     return OW_OK;
 }
 
+int ow_command_panel_ask(struct ow_command_panel *device, uint8_t *answer)
+{
+    const struct ow_controller *controller = device->config.controller;
+    if (controller->status_code == 0 || !device->started) {
+        return OW_UNSUPPORTED;
+    }
+    int status = command_wait_bus(device, 0);
+    status =
+        status < 0 ? status : ow_bus_read(device->config.bus, controller->status_code, answer, 1);
+    if (status < 0) {
+        return status == OW_UNSUPPORTED ? status : failed(device, status);
+    }
+    uint32_t wanted = (device->asleep ? 0u : controller->status_awake) |
+                      (device->lit ? controller->status_lit : 0u);
+    uint32_t bits = (uint32_t)controller->status_awake | controller->status_lit;
+    return *answer != 0xFF && (*answer & bits) == wanted;
+}
+
 int ow_command_panel_close(struct ow_command_panel *device)
 {
     (void)command_wait_bus(device, 0);

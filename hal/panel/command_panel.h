@@ -115,6 +115,14 @@ int ow_command_panel_open(struct ow_command_panel *device,
  */
 int ow_command_panel_start(struct ow_command_panel *device);
 
+/*
+ * Asks a started controller for its status: *answer is what it says. 1: it is
+ * awake and lit or dark as it should be; 0: it says otherwise, or its answers do
+ * not come here (all bits equal); OW_UNSUPPORTED: controller or bus cannot be read;
+ * or what the bus reports.
+ */
+int ow_command_panel_ask(struct ow_command_panel *device, uint8_t *answer);
+
 /* Waits for transfers under way and switches the panel off. May be called after any failure. */
 int ow_command_panel_close(struct ow_command_panel *device);
 

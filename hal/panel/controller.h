@@ -70,13 +70,16 @@ struct ow_controller {
     bool write_restarts;   /* the write code goes back to the window's start: a window may stay */
 
     struct ow_map_command map[OW_MAP_COMMANDS]; /* those with code 0 are not sent */
-    bool flip_in_lines;     /* rows are flipped within those driven, not within all memory */
-    uint8_t lines_code;     /* takes the number of lines less one; 0: none */
-    uint8_t normal_code;    /* colours as they are; 0: none */
-    uint8_t inverted_code;  /* or inverted */
-    bool inverted;          /* the usual module needs inverted_code to look right */
-    uint8_t light_code;     /* brightness; 0: none */
-    uint8_t light_max;      /* its highest value */
+    bool flip_in_lines;    /* rows are flipped within those driven, not within all memory */
+    uint8_t lines_code;    /* takes the number of lines less one; 0: none */
+    uint8_t normal_code;   /* colours as they are; 0: none */
+    uint8_t inverted_code; /* or inverted */
+    bool inverted;         /* the usual module needs inverted_code to look right */
+    uint8_t light_code;    /* brightness; 0: none */
+    uint8_t light_max;     /* its highest value */
+    uint8_t status_code;   /* answers with a byte of these bits; 0: cannot be read */
+    uint8_t status_awake;
+    uint8_t status_lit;
     uint8_t reset_code;     /* reset by command; 0: none */
     uint8_t nop_code;       /* no operation */
     uint8_t reset_wait_ms;  /* after reset_code */

@@ -112,14 +112,14 @@ static int transfer(const struct spi_ioc_transfer *message)
     if (too_long(message->len)) {
         return -1;
     }
-    if (broken && errno != EINTR && errno != EMSGSIZE) {
-        sim_controller_tear(&kernel.controller);
-    }
     uint32_t count = !broken                               ? message->len
                      : errno == EINTR || errno == EMSGSIZE ? 0
                                                            : message->len / 2;
     for (uint32_t i = 0; i < count; i++) {
         sim_controller_byte(&kernel.controller, kernel.data, bytes[i]);
+    }
+    if (broken && errno != EINTR && errno != EMSGSIZE) {
+        sim_controller_tear(&kernel.controller);
     }
     sim_controller_release(&kernel.controller);
     kernel.transfers++;
@@ -127,11 +127,35 @@ static int transfer(const struct spi_ioc_transfer *message)
     return broken ? -1 : (int)message->len;
 }
 
+/* A code goes out, the answer comes in the same message. */
+static int exchange(const struct spi_ioc_transfer messages[2])
+{
+    static const uint8_t id[] = { 0x3E, 0x44, 0xF8, 0x00 }; /* 7C 89 F0, a bit late */
+    const uint8_t *code = (const uint8_t *)(uintptr_t)messages[0].tx_buf;
+    uint8_t *answer = (uint8_t *)(uintptr_t)messages[1].rx_buf;
+    if (fails()) {
+        return -1;
+    }
+    assert_true(!kernel.data && messages[0].len == 1 && messages[0].cs_change == 0);
+    assert_true(messages[0].speed_hz <= 4000000 && messages[1].tx_buf == 0);
+    if (*code == 0x04) {
+        assert_int_equal(messages[1].len, sizeof id);
+        memcpy(answer, id, sizeof id);
+    } else {
+        assert_int_equal(messages[1].len, 1);
+        assert_true(sim_controller_answer(&kernel.controller, *code, answer));
+    }
+    return (int)(messages[0].len + messages[1].len);
+}
+
 static int fake_ioctl(int fd, unsigned long request, void *argument)
 {
     assert_true(fd == SPI_FD || fd == I2C_FD);
     if (request == SPI_IOC_MESSAGE(1)) {
         return transfer(argument);
+    }
+    if (request == SPI_IOC_MESSAGE(2)) {
+        return exchange(argument);
     }
     if (fails()) {
         return -1;
@@ -477,6 +501,32 @@ static void failures_of_opening_are_told(void **state)
     }
 }
 
+static void a_controller_is_read(void **state)
+{
+    uint8_t answer[3] = { 0 };
+    (void)state;
+    power_on(false);
+    assert_int_equal(open_bus(), OW_OK);
+    assert_int_equal(open_panel(), OW_OK);
+    assert_int_equal(show(), OW_OK);
+    assert_int_equal(ow_command_panel_ask(&rig.device, answer), 1);
+    assert_int_equal(answer[0], 0x9C);
+    assert_int_equal(ow_bus_read(&rig.bus, 0x04, answer, 3), OW_OK);
+    assert_true(answer[0] == 0x7C && answer[1] == 0x89 && answer[2] == 0xF0);
+    assert_int_equal(ow_bus_read(&rig.bus, 0x04, answer, 0), OW_ARGUMENT);
+    assert_int_equal(ow_bus_read(&rig.bus, 0x04, answer, 17), OW_ARGUMENT);
+    kernel.fail_at = kernel.calls + 2; /* after the D/C line */
+    kernel.fail_errno = EIO;
+    assert_int_equal(show(), OW_BUS);
+    assert_int_equal(show(), OW_OK);
+    check_picture();
+    power_off();
+    power_on(true);
+    assert_int_equal(open_bus(), OW_OK);
+    assert_int_equal(ow_bus_read(&rig.bus, 0x0A, answer, 1), OW_UNSUPPORTED);
+    power_off();
+}
+
 static void nobody_at_an_address_is_told(void **state)
 {
     (void)state;
@@ -512,6 +562,7 @@ int main(void)
         cmocka_unit_test(the_picture_arrives_in_transfers_that_fit),
         cmocka_unit_test(any_call_may_fail),
         cmocka_unit_test(failures_of_opening_are_told),
+        cmocka_unit_test(a_controller_is_read),
         cmocka_unit_test(nobody_at_an_address_is_told),
         cmocka_unit_test(a_configuration_without_lines_is_refused),
     };

@@ -243,6 +243,77 @@ static void it_is_dark_until_it_has_a_whole_frame(void **state)
     }
 }
 
+/* ---- a backlight ---- */
+
+static struct {
+    bool lit;
+    int status; /* of setting it */
+} backlight;
+
+static int light_open(void *device, const struct ow_gpio_request *request)
+{
+    (void)device;
+    (void)request;
+    return OW_UNSUPPORTED;
+}
+
+static int light_get(void *device, int line)
+{
+    (void)device;
+    (void)line;
+    return backlight.lit;
+}
+
+static int light_set(void *device, int line, bool level)
+{
+    (void)device;
+    assert_int_equal(line, 5);
+    backlight.lit = backlight.status < 0 ? backlight.lit : level;
+    return backlight.status;
+}
+
+static int light_close(void *device, int line)
+{
+    (void)device;
+    (void)line;
+    return OW_OK;
+}
+
+static void the_backlight_comes_with_the_first_frame(void **state)
+{
+    static const struct ow_gpio_ops ops = { light_open, light_get, light_set, NULL, light_close };
+    static const struct ow_gpio gpio = { &ops, NULL };
+    const struct rig_options options = { .controller = "st7789" };
+    struct rig rig;
+    (void)state;
+    rig_begin(&rig, &options);
+    rig.config.gpio = &gpio;
+    rig.config.backlight = 5;
+    rig_open(&rig, &options);
+    struct ow_panel_rect whole = rig_whole(&rig);
+    backlight.lit = true; /* as the board came up */
+    backlight.status = OW_OK;
+    assert_int_equal(ow_command_panel_start(&rig.device), OW_OK);
+    assert_false(backlight.lit);
+    assert_int_equal(rig_write(&rig, &whole, 0), OW_OK);
+    assert_true(backlight.lit);
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 0), OW_OK);
+    assert_false(backlight.lit);
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 1), OW_OK);
+    assert_true(backlight.lit);
+    backlight.status = OW_GONE;
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 0), OW_GONE);
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 1), OW_OK);
+    assert_int_equal(rig_write(&rig, &whole, 0), OW_GONE); /* the start needs it */
+    backlight.status = OW_OK;
+    assert_int_equal(rig_write(&rig, &whole, 0), OW_OK);
+    rig_check(&rig);
+    assert_true(backlight.lit);
+    assert_int_equal(ow_command_panel_close(&rig.device), OW_OK);
+    assert_false(backlight.lit);
+    rig_close(&rig);
+}
+
 static void a_rotation_set_later_needs_a_new_frame(void **state)
 {
     (void)state;
@@ -315,6 +386,41 @@ static void windows_cost_what_they_must(void **state)
     rig_close(&rig);
 }
 
+static void the_controller_is_asked_how_it_is(void **state)
+{
+    (void)state;
+    for (uint32_t c = 0; c < ow_controller_count; c++) {
+        const struct rig_options options = { .controller = ow_controllers[c]->name };
+        struct rig rig;
+        uint8_t answer = 0;
+        rig_begin(&rig, &options);
+        rig_open(&rig, &options);
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), OW_UNSUPPORTED);
+        assert_int_equal(ow_command_panel_start(&rig.device), OW_OK);
+        if (ow_controllers[c]->status_code == 0) {
+            assert_int_equal(ow_command_panel_ask(&rig.device, &answer), OW_UNSUPPORTED);
+            rig_close(&rig);
+            continue;
+        }
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 1);
+        assert_int_equal(answer, 0x98);
+        draw(&rig, false);
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 1);
+        assert_int_equal(answer, 0x9C);
+        rig_check(&rig);
+        rig.bus.controller.lit = false; /* somebody else did that */
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 0);
+        rig.bus.config.mute = true;
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), 0);
+        assert_int_equal(answer, 0xFF);
+        rig.bus.config.fail_every = 1;
+        assert_int_equal(ow_command_panel_ask(&rig.device, &answer), OW_BUS);
+        rig.bus.config.fail_every = 0;
+        draw(&rig, false); /* it was started anew */
+        rig_close(&rig);
+    }
+}
+
 static void a_bad_configuration_is_refused(void **state)
 {
     (void)state;
@@ -384,9 +490,11 @@ int main(void)
         cmocka_unit_test(little_endian_pixels_can_be_sent),
         cmocka_unit_test(without_a_reset_line_it_is_reset_by_command),
         cmocka_unit_test(it_is_dark_until_it_has_a_whole_frame),
+        cmocka_unit_test(the_backlight_comes_with_the_first_frame),
         cmocka_unit_test(a_rotation_set_later_needs_a_new_frame),
         cmocka_unit_test(the_age_says_what_the_glass_shows),
         cmocka_unit_test(windows_cost_what_they_must),
+        cmocka_unit_test(the_controller_is_asked_how_it_is),
         cmocka_unit_test(a_bad_configuration_is_refused),
         cmocka_unit_test(a_bad_rectangle_is_refused),
         cmocka_unit_test(names_are_found),

@@ -94,6 +94,8 @@ class Controller:
         self.args += content
         if len(self.args) == self.parameters.get(self.code):
             self.act(self.code, self.args)
+            if self.as_commands:
+                self.finish()
 
     def set_window(self, at, first, last, limit):
         """One axis of the window: at 0 the columns, at 2 the rows."""

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 enum { SCK = 0, MOSI = 1, CS = 2, LINES = 8, RUN_MAX = 65536 };
+enum { VCD_EDGES = 200000 }; /* enough to compare, not too much for another decoder */
 
 enum trouble { DC_IN_BYTE = 1, CLOCK_WITHOUT_CS = 2, PART_OF_BYTE = 3 };
 
@@ -107,7 +108,7 @@ static void edge(unsigned line, uint8_t level)
         return;
     }
     bus.level[line] = level;
-    if (bus.vcd != NULL) {
+    if (bus.vcd != NULL && bus.edges < VCD_EDGES) {
         fprintf(bus.vcd, "#%llu\n%u%c\n", (unsigned long long)++bus.edges * 100, level,
                 (char)('!' + line));
     }

@@ -4,7 +4,7 @@
  * trace of pl061_set_output, decodes 4-wire SPI (mode 0 or 3: bits count at the clock's rising
  * edge) and writes records for tests/vm/lib/bus.py, each as soon as it is known:
  *   byte 0  kind; byte 1  detail; bytes 4-7  length; bytes 8-15  time, microseconds
- *   'D' detail D/C level, followed by length bytes that were sent
+ *   'D' detail D/C level, followed by length bytes that were sent; time of the first
  *   'E' the end of a transaction (chip select went up)
  *   'P' detail 2 * line + level: a pin outside SPI changed
  *   'X' detail: what a panel would not forgive (enum trouble)
@@ -16,10 +16,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { SCK = 0, MOSI = 1, CS = 2, LINES = 8, RUN_MAX = 65536 };
+enum { VCD_EDGES = 200000 }; /* enough to compare, not too much for another decoder */
 
 enum trouble { DC_IN_BYTE = 1, CLOCK_WITHOUT_CS = 2, PART_OF_BYTE = 3 };
 
@@ -31,23 +31,17 @@ static struct {
     uint8_t run[RUN_MAX]; /* bytes sent under one D/C level */
     uint32_t run_length;
     uint8_t run_dc;
+    uint64_t run_us; /* when its first byte was whole */
+    uint64_t now_us;
     uint64_t edges;
     FILE *vcd;
 } bus = { .dc = 4 };
 
-static uint64_t now_us(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000U + (uint64_t)t.tv_nsec / 1000U;
-}
-
 static void put(char kind, unsigned detail, const void *data, uint32_t length)
 {
     uint8_t head[16] = { (uint8_t)kind, (uint8_t)detail };
-    uint64_t time = now_us();
     memcpy(head + 4, &length, 4);
-    memcpy(head + 8, &time, 8);
+    memcpy(head + 8, length > 0 ? &bus.run_us : &bus.now_us, 8);
     if (fwrite(head, sizeof head, 1, stdout) != 1 ||
         (length > 0 && fwrite(data, length, 1, stdout) != 1)) {
         exit(1); /* nobody listens any more */
@@ -68,7 +62,10 @@ static void take_byte(uint8_t byte)
     if (bus.run_length == RUN_MAX || (bus.run_length > 0 && bus.run_dc != dc)) {
         end_run();
     }
-    bus.run_dc = dc;
+    if (bus.run_length == 0) {
+        bus.run_dc = dc;
+        bus.run_us = bus.now_us;
+    }
     bus.run[bus.run_length++] = byte;
 }
 
@@ -111,7 +108,7 @@ static void edge(unsigned line, uint8_t level)
         return;
     }
     bus.level[line] = level;
-    if (bus.vcd != NULL) {
+    if (bus.vcd != NULL && bus.edges < VCD_EDGES) {
         fprintf(bus.vcd, "#%llu\n%u%c\n", (unsigned long long)++bus.edges * 100, level,
                 (char)('!' + line));
     }
@@ -128,6 +125,17 @@ static void edge(unsigned line, uint8_t level)
     }
 }
 
+/* The time of a line: "PROCESS@SECONDS.MICROSECONDS:...". */
+static void take_time(const char *line, const char *end)
+{
+    uint64_t us = 0;
+    const char *p = memchr(line, '@', (size_t)(end - line));
+    for (; p != NULL && ++p < end && (*p == '.' || (*p >= '0' && *p <= '9'));) {
+        us = *p == '.' ? us : us * 10 + (uint64_t)(*p - '0');
+    }
+    bus.now_us = us;
+}
+
 /* One line of the trace: "... setting output LINE to LEVEL". */
 static void take_line(const char *line, size_t length)
 {
@@ -135,6 +143,7 @@ static void take_line(const char *line, size_t length)
     const size_t n = sizeof mark - 1;
     const char *p = line;
     const char *end = line + length;
+    take_time(line, end);
     while (p + n + 6 <= end && memcmp(p, mark, n) != 0) {
         p++;
     }

@@ -69,7 +69,7 @@ class Bus:
         self.settle()
         self.panel = panel
         if not self.levels.get(self.reset):
-            panel.reset_pin(0, time.monotonic_ns() // 1000)
+            panel.reset_pin(0, 0)
         self.faults = []
         self.bytes = [0, 0]
         self.sent = bytearray()

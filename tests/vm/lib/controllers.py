@@ -43,9 +43,10 @@ class Controller:
         if not level:
             self.low_since = time_us
         elif self.low_since is not None:
-            if time_us - self.low_since < 10:
-                self.fault("RESET too short")
-            self.resets += 1
+            if self.low_since > 0:               # or it was low from the beginning
+                self.resets += 1
+                if time_us - self.low_since < 10:
+                    self.fault("RESET too short")
             self.power_on(time_us + self.reset_us)
 
     def data(self, dc, content, time_us):
@@ -94,6 +95,8 @@ class Controller:
         self.args += content
         if len(self.args) == self.parameters.get(self.code):
             self.act(self.code, self.args)
+            if self.as_commands:
+                self.finish()
 
     def set_window(self, at, first, last, limit):
         """One axis of the window: at 0 the columns, at 2 the rows."""

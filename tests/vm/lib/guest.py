@@ -100,7 +100,7 @@ class Guest:
                    "-qtest", f"unix:{self.sockets}/qtest,server=on,wait=off",
                    "-qtest-log", "/dev/null", *devices]
         if trace:
-            command += ["-trace", "pl061_set_output", "-D", trace]
+            command += ["-msg", "timestamp=on", "-trace", "pl061_set_output", "-D", trace]
         with open(os.path.join(self.folder, "qemu.log"), "wb") as log:
             self.qemu = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         self.port = self.qmp_lines = self.qtest_lines = self.pl061 = None

@@ -179,9 +179,9 @@ submake = @+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$
 
 .PHONY: help demo check check-all check-rest format golden-update fuzz install clean FORCE
 help: ## show this list
-	@grep -hE '^[a-z-]+:.*## ' Makefile mk/*.mk | sort | \
+	@grep -hE '^[a-z0-9-]+:.*## ' Makefile mk/*.mk | sort | \
 	    while IFS= read -r l; do printf '  make %-14s%s\n' "$${l%%:*}" "$${l#*## }"; done
-	@echo '  make                build/owgen, build/owc, build/owsim and build/owbench'
+	@echo '  make                build/owgen, build/owc, build/owsim, build/owbench and build/oldwell'
 	@echo '  make BOARD=NAME     a program for a board without an operating system: $(bare_boards)'
 	@echo '  make BOARD=NAME run shows it in QEMU; TREE=FILE.owt: another tree than the Old Well'
 	@echo 'Variables: O=folder CC=compiler CFLAGS=... SAN=1 (sanitizers) WERROR=1 STRICT=1 V=1'
@@ -219,7 +219,7 @@ fuzz: ## libFuzzer on every target, FUZZ_SECONDS each (600); FUZZ_SCENES trees (
 	    CFLAGS='-O1 -g -fsanitize=fuzzer-no-link' SAN=1 fuzzers
 	@scripts/fuzz
 
-install: programs ## owgen, owc and owsim into DESTDIR/prefix/bin
+install: programs ## the programs, with all that oldwell needs on a board, below DESTDIR/prefix
 	install -d $(DESTDIR)$(prefix)/bin
 	install -m 755 $(O)/owgen $(O)/owc $(O)/owsim $(DESTDIR)$(prefix)/bin
 

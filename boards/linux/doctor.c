@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "access.h"
+#include "controls.h"
 #include "events.h"
 #include "hal/linux/clock.h"
 #include "hal/linux/console.h"
@@ -74,6 +75,26 @@ static void check_camera(struct report *report, const struct oldwell_settings *s
     report_good(report, "camera", "%" PRIu32 "x%" PRIu32 ", %.4s", camera.video.width,
                 camera.video.height, (const char *)&camera.video.pixels);
     linux_v4l2_camera_close(&camera);
+}
+
+static void check_controls(struct report *report, const struct oldwell_settings *settings,
+                           const struct linux_system *system)
+{
+    static struct controls controls;
+    struct linux_wait wait;
+    linux_wait_init(&wait, system);
+    if (controls_open(&controls, settings, system, linux_gpio_installed, &wait) < 0) {
+        report_fault(report, "input", &controls.fault);
+        return;
+    }
+    if (controls.inputs.count > 0) {
+        report_good(report, "input", "%s%s%s", settings->buttons != NULL ? "buttons " : "",
+                    settings->knobs != NULL ? "knobs " : "",
+                    settings->input != NULL ? settings->input : "");
+    } else {
+        report_note(report, "input", "no buttons: the model turns for ever");
+    }
+    controls_close(&controls);
 }
 
 /* Only that it can be had: it is taken later, by who gives it back. */
@@ -166,6 +187,7 @@ int doctor_main(struct report *report, const struct oldwell_settings *settings,
     }
     check_tree(report, settings);
     check_camera(report, settings, system);
+    check_controls(report, settings, system);
     if (kind != NULL && kind->on_console) {
         check_console(report, settings, system);
     }

@@ -43,6 +43,11 @@ void output_close(struct output *output)
     }
 }
 
+int output_look(struct output *output)
+{
+    return output->kind->look == NULL ? OW_OK : output->kind->look(output);
+}
+
 int output_finish(struct output *output)
 {
     return output->kind->finish == NULL ? OW_OK : output->kind->finish(output);

@@ -26,6 +26,8 @@ struct output_kind {
     void (*close)(struct output *output);
     /* Returns when what was shown last is on the screen: OW_OK or a status. NULL: it is at once. */
     int (*finish)(struct output *output);
+    /* Once a second: is it still there? OW_OK or a status. NULL: every show tells. */
+    int (*look)(struct output *output);
     /* The doctor: more about an open display. May be NULL. */
     void (*examine)(const struct output *output, struct report *report);
     const char *usual_device; /* without --device; NULL: it is looked for */
@@ -53,6 +55,7 @@ int output_open(struct output *output, const struct oldwell_settings *settings,
 void output_close(struct output *output);
 
 int output_finish(struct output *output);
+int output_look(struct output *output);
 
 extern const struct output_kind output_command;
 extern const struct output_kind output_drm; /* where libdrm is there: OLDWELL_DRM */

@@ -67,6 +67,12 @@ static int finish_drm(struct output *output)
     return linux_drm_finish(&the_drm);
 }
 
+static int look_drm(struct output *output)
+{
+    (void)output;
+    return linux_drm_look(&the_drm);
+}
+
 static void examine_drm(const struct output *output, struct report *report)
 {
     (void)output;
@@ -75,6 +81,7 @@ static void examine_drm(const struct output *output, struct report *report)
 }
 
 const struct output_kind output_drm = {
+    .look = look_drm,
     .examine = examine_drm,
     .open = open_drm,
     .close = close_drm,

@@ -246,8 +246,10 @@ static int step(struct run *run)
     return status;
 }
 
-static void serve_events(struct run *run)
+/* OW_OK, or what the display says of itself. */
+static int serve_events(struct run *run)
 {
+    int status = OW_OK;
     events_look(&run->events);
     if (run->events.reload) {
         run->events.reload = false;
@@ -257,6 +259,7 @@ static void serve_events(struct run *run)
         run->events.second = false;
         camera_second(&run->camera);
         controls_second(&run->controls);
+        status = output_look(&run->output);
         if (run->settings->stats) {
             stats_print(&run->stats);
         }
@@ -264,6 +267,7 @@ static void serve_events(struct run *run)
     if (camera_look(&run->camera)) {
         ow_viewer_refresh(&run->viewer);
     }
+    return status;
 }
 
 /* Failures in a row, each recovered from at once, must not keep it busy for ever. */
@@ -273,12 +277,12 @@ static int loop(struct run *run)
 {
     uint32_t failures = 0;
     while (!run->events.stop) {
-        serve_events(run);
+        int status = serve_events(run);
         pause_until(run, run->next_us);
         if (run->events.stop) {
             break;
         }
-        int status = step(run);
+        status = status < 0 ? status : step(run);
         if (status >= 0) {
             failures = status > 0 ? 0 : failures;
             continue;
@@ -312,8 +316,9 @@ static int open_all(struct run *run)
         warn_line(s->tree, 0, "the tree has no polygon numbers, compile it with owc --keep-ids");
         return FAIL_INPUT;
     }
-    if (!events_open(&run->events, &run->waiting) ||
-        ((s->stats || s->camera != NULL || s->input != NULL) && !events_tick(&run->events))) {
+    bool ticks = s->stats || s->camera != NULL || s->input != NULL ||
+                 (output_kind_of(s) != NULL && output_kind_of(s)->look != NULL);
+    if (!events_open(&run->events, &run->waiting) || (ticks && !events_tick(&run->events))) {
         warn_line(NULL, 0, "signals cannot be waited for: %s", strerror(errno));
         return FAIL_DEVICE;
     }

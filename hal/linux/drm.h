@@ -69,6 +69,9 @@ void linux_drm_close(struct linux_drm *drm);
 /* Takes what fd has to say. */
 void linux_drm_ready(struct linux_drm *drm);
 
+/* Is the screen still connected, as far as the kernel knows? OW_OK or OW_GONE. */
+int linux_drm_look(struct linux_drm *drm);
+
 /* Returns when the last frame is on the screen: OW_OK or OW_TIMEOUT. */
 int linux_drm_finish(struct linux_drm *drm);
 

@@ -10,6 +10,7 @@ const struct linux_drm_calls linux_drm_calls = {
     .get_resources = drmModeGetResources,
     .free_resources = drmModeFreeResources,
     .get_connector = drmModeGetConnector,
+    .get_connector_current = drmModeGetConnectorCurrent,
     .free_connector = drmModeFreeConnector,
     .get_encoder = drmModeGetEncoder,
     .free_encoder = drmModeFreeEncoder,

@@ -15,6 +15,7 @@ struct linux_drm_calls {
     drmModeResPtr (*get_resources)(int fd);
     void (*free_resources)(drmModeResPtr resources);
     drmModeConnectorPtr (*get_connector)(int fd, uint32_t id);
+    drmModeConnectorPtr (*get_connector_current)(int fd, uint32_t id); /* without looking anew */
     void (*free_connector)(drmModeConnectorPtr connector);
     drmModeEncoderPtr (*get_encoder)(int fd, uint32_t id);
     void (*free_encoder)(drmModeEncoderPtr encoder);

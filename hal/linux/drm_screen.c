@@ -152,6 +152,18 @@ static drmModeConnectorPtr find_connector(const struct linux_drm *drm, const drm
     return NULL;
 }
 
+int linux_drm_look(struct linux_drm *drm)
+{
+    const struct linux_drm_calls *calls = drm->config.calls;
+    drmModeConnectorPtr connector = calls->get_connector_current(drm->fd, drm->connector);
+    if (connector == NULL) {
+        return linux_fault_errno(&drm->fault, drm->config.device, "MODE_GETCONNECTOR", errno);
+    }
+    bool connected = connector->connection != DRM_MODE_DISCONNECTED;
+    calls->free_connector(connector);
+    return connected ? OW_OK : note(drm, OW_GONE, "the screen was unplugged", "connect it again");
+}
+
 int linux_drm_find_screen(struct linux_drm *drm)
 {
     const struct linux_drm_calls *calls = drm->config.calls;

@@ -149,7 +149,8 @@ static int keep_frame(void *context, const struct sim_panel *panel)
 /* Lending and taking panels, turned each way: the red corner is the picture's top left. */
 static void the_pattern_is_shown_on_any_panel(void **state)
 {
-    static const uint32_t corner[4][2] = { { 1, 1 }, { 318, 1 }, { 318, 238 }, { 1, 238 } };
+    static const uint32_t red[4][2] = { { 1, 1 }, { 318, 1 }, { 318, 238 }, { 1, 238 } };
+    static const uint32_t green[4][2] = { { 318, 1 }, { 318, 238 }, { 1, 238 }, { 1, 1 } };
     struct ow_clock clock = { &linux_clock_ops, (void *)(uintptr_t)&fake_linux };
     (void)state;
     fake_reset();
@@ -168,8 +169,10 @@ static void the_pattern_is_shown_on_any_panel(void **state)
             assert_int_equal(pattern_show(&panel.panel, &clock, turns), OW_OK);
             assert_int_equal(frames, 1);
             assert_null(panel.wrong);
-            const uint8_t *row = panel.screen + (size_t)corner[turns][1] * panel.row_bytes;
-            assert_int_equal(ow_format_xrgb8888.get(row, corner[turns][0]), 0xFF0000);
+            const uint8_t *row = panel.screen + (size_t)red[turns][1] * panel.row_bytes;
+            assert_int_equal(ow_format_xrgb8888.get(row, red[turns][0]), 0xFF0000);
+            row = panel.screen + (size_t)green[turns][1] * panel.row_bytes;
+            assert_int_equal(ow_format_xrgb8888.get(row, green[turns][0]), 0x00FF00);
             sim_panel_close(&panel);
         }
     }

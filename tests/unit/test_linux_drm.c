@@ -126,6 +126,11 @@ static drmModeConnectorPtr get_connector(int fd, uint32_t id)
     return c;
 }
 
+static drmModeConnectorPtr get_connector_current(int fd, uint32_t id)
+{
+    return get_connector(fd, id);
+}
+
 static void free_connector(drmModeConnectorPtr connector)
 {
     free(connector);
@@ -276,10 +281,27 @@ static int handle_event(int fd, drmEventContextPtr context)
 }
 
 static const struct linux_drm_calls calls = {
-    get_cap,        is_master,     set_master,     drop_master, get_resources,
-    free_resources, get_connector, free_connector, get_encoder, free_encoder,
-    get_crtc,       free_crtc,     set_crtc,       create_dumb, destroy_dumb,
-    map_dumb,       add_fb2,       rm_fb,          page_flip,   handle_event,
+    .get_cap = get_cap,
+    .is_master = is_master,
+    .set_master = set_master,
+    .drop_master = drop_master,
+    .get_resources = get_resources,
+    .free_resources = free_resources,
+    .get_connector = get_connector,
+    .get_connector_current = get_connector_current,
+    .free_connector = free_connector,
+    .get_encoder = get_encoder,
+    .free_encoder = free_encoder,
+    .get_crtc = get_crtc,
+    .free_crtc = free_crtc,
+    .set_crtc = set_crtc,
+    .create_dumb = create_dumb,
+    .destroy_dumb = destroy_dumb,
+    .map_dumb = map_dumb,
+    .add_fb2 = add_fb2,
+    .rm_fb = rm_fb,
+    .page_flip = page_flip,
+    .handle_event = handle_event,
 };
 
 static int card_open(const char *path, int flags)
@@ -443,6 +465,20 @@ static void screens_are_chosen(void **state)
     assert_int_equal(card.objects, 0);
 }
 
+static void an_unplugged_screen_is_gone(void **state)
+{
+    (void)state;
+    assert_int_equal(open_drm(NULL, NULL), OW_OK);
+    assert_int_equal(linux_drm_look(&drm), OW_OK);
+    card.screen_is_there = false;
+    assert_int_equal(linux_drm_look(&drm), OW_GONE);
+    assert_string_equal(drm.fault.why, "the screen was unplugged");
+    card.fail_at = card.calls + 1;
+    assert_int_equal(linux_drm_look(&drm), OW_BUS);
+    linux_drm_close(&drm);
+    assert_int_equal(card.objects, 0);
+}
+
 static void another_master_is_busy(void **state)
 {
     uint32_t age;
@@ -516,6 +552,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(frames_flip_between_two_buffers, reset),
         cmocka_unit_test_setup(screens_are_chosen, reset),
+        cmocka_unit_test_setup(an_unplugged_screen_is_gone, reset),
         cmocka_unit_test_setup(another_master_is_busy, reset),
         cmocka_unit_test_setup(a_screen_that_never_flips_times_out, reset),
         cmocka_unit_test_setup(a_buffer_that_is_too_small_is_refused, reset),

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "hal/linux/fbdev.h"
+#include "hal/linux/formats.h"
 #include "tests/unit/fake_linux.h"
 
 static struct linux_fbdev fbdev;
@@ -78,6 +79,35 @@ static void every_channel_order_is_honoured(void **state)
         }
         linux_fbdev_close(&fbdev);
         assert_int_equal(fake.open_fds + fake.mapped, 0);
+    }
+}
+
+/* The exchanged formats are the core's for exchanged colours, dithered ones too. */
+static void exchanged_formats_are_the_cores_exchanged(void **state)
+{
+    static const struct ow_pixel_format *const pairs[][2] = {
+        { &linux_format_bgr565, &ow_format_rgb565 },
+        { &linux_format_xbgr8888, &ow_format_xrgb8888 },
+    };
+    (void)state;
+    for (uint32_t i = 0; i < 2; i++) {
+        const struct ow_pixel_format *own = pairs[i][0];
+        const struct ow_pixel_format *cores = pairs[i][1];
+        assert_int_equal(own->bits, cores->bits);
+        assert_int_equal(own->used, cores->used);
+        for (uint32_t rgb = 0; rgb < 0x1000000; rgb += 4099) {
+            uint32_t bgr = rgb >> 16 | (rgb & 0xFF00) | (rgb & 0xFF) << 16;
+            _Alignas(4) uint8_t row[8] = { 0 };
+            assert_int_equal(own->pack(rgb), cores->pack(bgr));
+            uint32_t back = cores->unpack(cores->pack(bgr));
+            assert_int_equal(own->unpack(own->pack(rgb)),
+                             back >> 16 | (back & 0xFF00) | (back & 0xFF) << 16);
+            if (cores->dither != NULL) {
+                assert_int_equal(own->dither(rgb, rgb % 64), cores->dither(bgr, rgb % 64));
+            }
+            own->store(row, 1, 2, &rgb);
+            assert_int_equal(own->get(row, 1), own->pack(rgb));
+        }
     }
 }
 
@@ -257,6 +287,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(every_channel_order_is_honoured, reset),
+        cmocka_unit_test(exchanged_formats_are_the_cores_exchanged),
         cmocka_unit_test_setup(only_what_changed_is_copied, reset),
         cmocka_unit_test_setup(two_pages_take_turns, reset),
         cmocka_unit_test_setup(panning_that_does_not_work_is_not_used, reset),

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "hal/linux/gpio.h"
+#include "tests/unit/child.h"
 
 enum { CHIPS = 3, LINES = 8, EDGES = 32 };
 
@@ -46,7 +47,7 @@ static struct {
     void (*on_read)(void); /* something happens while edges are read */
 } fake;
 
-static char folder[] = "/tmp/test_linux_gpio-XXXXXX";
+static char folder[CHILD_PATH];
 
 static const char *version(void)
 {
@@ -488,12 +489,10 @@ static int make_folder(void **state)
 {
     static const char *const names[] = { "gpiochip0", "gpiochip2", "gpiochip10", "gpio", "tty" };
     (void)state;
-    if (mkdtemp(folder) == NULL) {
-        return -1;
-    }
+    folder_make(folder);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        char path[64];
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        char path[CHILD_PATH];
+        folder_path(path, folder, names[i]);
         int fd = open(path, O_CREAT | O_WRONLY, 0600);
         if (fd < 0 || close(fd) != 0) {
             return -1;
@@ -504,10 +503,9 @@ static int make_folder(void **state)
 
 static int remove_folder(void **state)
 {
-    char command[64];
     (void)state;
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
+    folder_remove(folder);
+    return 0;
 }
 
 int main(void)

@@ -18,6 +18,7 @@
 #include "hal/linux/input_evdev.h"
 #include "hal/linux/input_gpio.h"
 #include "hal/linux/inputs.h"
+#include "tests/unit/child.h"
 
 /* ---- lines whose edges are a text: `a` falls, `A` rises, `!` edges were lost, `x` an error ---- */
 
@@ -191,7 +192,7 @@ static struct {
     const char *names[3];
 } kernel;
 
-static char folder[] = "/tmp/test_linux_input-XXXXXX";
+static char folder[CHILD_PATH];
 
 static bool fails(void)
 {
@@ -472,13 +473,12 @@ static void inputs_are_merged_by_time(void **state)
 
 static int make_folder(void **state)
 {
+    static const char *const names[] = { "event0", "event1", "event2" };
     (void)state;
-    if (mkdtemp(folder) == NULL) {
-        return -1;
-    }
-    for (int i = 0; i < 3; i++) {
-        char path[64];
-        snprintf(path, sizeof path, "%s/event%d", folder, i);
+    folder_make(folder);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char path[CHILD_PATH];
+        folder_path(path, folder, names[i]);
         int fd = open(path, O_CREAT | O_WRONLY, 0600);
         if (fd < 0 || close(fd) != 0) {
             return -1;
@@ -489,10 +489,9 @@ static int make_folder(void **state)
 
 static int remove_folder(void **state)
 {
-    char command[64];
     (void)state;
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
+    folder_remove(folder);
+    return 0;
 }
 
 int main(void)

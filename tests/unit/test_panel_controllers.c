@@ -243,6 +243,77 @@ static void it_is_dark_until_it_has_a_whole_frame(void **state)
     }
 }
 
+/* ---- a backlight ---- */
+
+static struct {
+    bool lit;
+    int status; /* of setting it */
+} backlight;
+
+static int light_open(void *device, const struct ow_gpio_request *request)
+{
+    (void)device;
+    (void)request;
+    return OW_UNSUPPORTED;
+}
+
+static int light_get(void *device, int line)
+{
+    (void)device;
+    (void)line;
+    return backlight.lit;
+}
+
+static int light_set(void *device, int line, bool level)
+{
+    (void)device;
+    assert_int_equal(line, 5);
+    backlight.lit = backlight.status < 0 ? backlight.lit : level;
+    return backlight.status;
+}
+
+static int light_close(void *device, int line)
+{
+    (void)device;
+    (void)line;
+    return OW_OK;
+}
+
+static void the_backlight_comes_with_the_first_frame(void **state)
+{
+    static const struct ow_gpio_ops ops = { light_open, light_get, light_set, NULL, light_close };
+    static const struct ow_gpio gpio = { &ops, NULL };
+    const struct rig_options options = { .controller = "st7789" };
+    struct rig rig;
+    (void)state;
+    rig_begin(&rig, &options);
+    rig.config.gpio = &gpio;
+    rig.config.backlight = 5;
+    rig_open(&rig, &options);
+    struct ow_panel_rect whole = rig_whole(&rig);
+    backlight.lit = true; /* as the board came up */
+    backlight.status = OW_OK;
+    assert_int_equal(ow_command_panel_start(&rig.device), OW_OK);
+    assert_false(backlight.lit);
+    assert_int_equal(rig_write(&rig, &whole, 0), OW_OK);
+    assert_true(backlight.lit);
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 0), OW_OK);
+    assert_false(backlight.lit);
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 1), OW_OK);
+    assert_true(backlight.lit);
+    backlight.status = OW_GONE;
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 0), OW_GONE);
+    assert_int_equal(ow_panel_set(&rig.device.panel, OW_PANEL_POWER, 1), OW_OK);
+    assert_int_equal(rig_write(&rig, &whole, 0), OW_GONE); /* the start needs it */
+    backlight.status = OW_OK;
+    assert_int_equal(rig_write(&rig, &whole, 0), OW_OK);
+    rig_check(&rig);
+    assert_true(backlight.lit);
+    assert_int_equal(ow_command_panel_close(&rig.device), OW_OK);
+    assert_false(backlight.lit);
+    rig_close(&rig);
+}
+
 static void a_rotation_set_later_needs_a_new_frame(void **state)
 {
     (void)state;
@@ -419,6 +490,7 @@ int main(void)
         cmocka_unit_test(little_endian_pixels_can_be_sent),
         cmocka_unit_test(without_a_reset_line_it_is_reset_by_command),
         cmocka_unit_test(it_is_dark_until_it_has_a_whole_frame),
+        cmocka_unit_test(the_backlight_comes_with_the_first_frame),
         cmocka_unit_test(a_rotation_set_later_needs_a_new_frame),
         cmocka_unit_test(the_age_says_what_the_glass_shows),
         cmocka_unit_test(windows_cost_what_they_must),

@@ -16,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { SCK = 0, MOSI = 1, CS = 2, LINES = 8, RUN_MAX = 65536 };
@@ -125,11 +126,16 @@ static void edge(unsigned line, uint8_t level)
     }
 }
 
-/* The time of a line: "PROCESS@SECONDS.MICROSECONDS:...". */
+/* The time of a line: "PROCESS@SECONDS.MICROSECONDS:..."; the time now, if it has none. */
 static void take_time(const char *line, const char *end)
 {
     uint64_t us = 0;
     const char *p = memchr(line, '@', (size_t)(end - line));
+    if (p == NULL) {
+        struct timespec now;
+        clock_gettime(CLOCK_MONOTONIC, &now);
+        us = (uint64_t)now.tv_sec * 1000000U + (uint64_t)now.tv_nsec / 1000U;
+    }
     for (; p != NULL && ++p < end && (*p == '.' || (*p >= '0' && *p <= '9'));) {
         us = *p == '.' ? us : us * 10 + (uint64_t)(*p - '0');
     }

@@ -36,8 +36,8 @@ int main(int argc, char **argv)
     } commands[] = {
         { "as", 2, tool_as },     { "capture", 3, tool_capture }, { "console", 0, tool_console },
         { "fb", 1, tool_fb },     { "feed", 2, tool_feed },       { "hold", 2, tool_hold },
-        { "loop", 5, tool_loop }, { "master", 1, tool_master },   { "size", 1, tool_size },
-        { "spi", 6, tool_spi },
+        { "keys", 1, tool_keys }, { "loop", 5, tool_loop },       { "master", 1, tool_master },
+        { "size", 1, tool_size }, { "spi", 6, tool_spi },
     };
     for (size_t i = 0; argc > 1 && i < sizeof commands / sizeof commands[0]; i++) {
         if (strcmp(argv[1], commands[i].name) == 0 && argc - 2 >= commands[i].arguments) {

@@ -14,6 +14,9 @@ int failed(const char *what);
 int tool_hold(int argc, char **argv); /* CHIP LINE: requests the line and keeps it */
 int tool_spi(int argc, char **argv);  /* SPIDEV CHIP DC RESET WIDTH HEIGHT: a pattern */
 
+/* keys.c */
+int tool_keys(int argc, char **argv); /* FIFO: makes an input device; takes `TYPE CODE VALUE` */
+
 /* screen.c */
 int tool_console(int argc, char **argv); /* prints the console's mode: text or graphics */
 int tool_fb(int argc, char **argv);      /* FBDEV: the same pattern */

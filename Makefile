@@ -41,10 +41,11 @@ link        = $(CC) $(CFLAGS) $(sanitize) $(LDFLAGS) $(private_ldflags)
 
 # ---- sources, by folder -------------------------------------------------------------------------
 core_src   := $(wildcard firmware/core/*.c)
-owsim_src  := $(wildcard firmware/viewer/*.c hal/panel/*.c sim/*.c boards/sim/*.c)
+owsim_src  := $(wildcard firmware/viewer/*.c firmware/device/*.c hal/panel/*.c sim/*.c boards/sim/*.c)
 common_src := $(wildcard tools/common/*.c)
 owgen_src  := $(wildcard tools/owgen/*.c)
 owc_src    := $(wildcard tools/owc/*.c)
+owbench_src := $(wildcard tools/owbench/*.c)
 oracle_src := $(wildcard tests/oracle/*.c)
 test_src   := $(wildcard tests/unit/test_*.c tests/property/test_*.c tests/fault/test_*.c)
 helper_src := $(filter-out $(test_src),$(wildcard tests/unit/*.c tests/property/*.c tests/fault/*.c \
@@ -65,7 +66,7 @@ fuzzers := $(patsubst %.c,%,$(notdir $(fuzz_src)))
 # ---- programs -----------------------------------------------------------------------------------
 .PHONY: all programs tests replay fuzzers
 all: programs
-programs: $(O)/owgen $(O)/owc $(O)/owsim
+programs: $(O)/owgen $(O)/owc $(O)/owsim $(O)/owbench
 
 # With LAUNCH (an emulator, say) a program is the file NAME.elf and a script NAME that starts it.
 define finish
@@ -91,6 +92,11 @@ $(O)/owc: $(call mains,$(owc_src)) $(O)/owc.a $(O)/common.a $(O)/core.a
 $(O)/owsim: $(call mains,$(owsim_src)) $(O)/owsim.a $(O)/common.a $(O)/core.a
 	@echo "  ld $@"
 	$(Q)$(link_program) $(png_libs) $(json_libs) -lm
+	$(Q)$(finish)
+
+$(O)/owbench: $(call obj,$(owbench_src)) $(O)/common.a
+	@echo "  ld $@"
+	$(Q)$(link_program) $(json_libs) -lm
 	$(Q)$(finish)
 
 $(O)/core.a: $(call parts,$(core_src))
@@ -156,7 +162,7 @@ $(O)/obj/%.o: %.c $(O)/flags
 
 $(O)/obj/tools/owc/%.o: extra = $(call pkg,--cflags,assimp) $(call pkg,--cflags,libcjson)
 $(O)/obj/sim/%.o: extra = $(call pkg,--cflags,libpng)
-$(O)/obj/tools/common/%.o: extra = $(call pkg,--cflags,libcjson)
+$(O)/obj/tools/owbench/%.o $(O)/obj/tools/common/%.o: extra = $(call pkg,--cflags,libcjson)
 $(O)/obj/boards/sim/%.o $(O)/obj/tests/%.o: extra = $(call pkg,--cflags,libpng libcjson)
 $(call obj,$(owc_src)): | have-assimp
 $(call obj,$(filter sim/%,$(owsim_src))): | have-libpng
@@ -175,7 +181,7 @@ submake = @+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$
 help: ## show this list
 	@grep -hE '^[a-z0-9-]+:.*## ' Makefile mk/*.mk | sort | \
 	    while IFS= read -r l; do printf '  make %-14s%s\n' "$${l%%:*}" "$${l#*## }"; done
-	@echo '  make                build/owgen, build/owc, build/owsim and build/oldwell'
+	@echo '  make                build/owgen, owc, owsim, owbench and oldwell'
 	@echo 'Variables: O=folder CC=compiler CFLAGS=... SAN=1 (sanitizers) WERROR=1 STRICT=1 V=1'
 
 demo: ## the Old Well in one turn: pictures in build/demo
@@ -216,7 +222,7 @@ install: programs ## the programs, with all that oldwell needs on a board, below
 	install -m 755 $(O)/owgen $(O)/owc $(O)/owsim $(DESTDIR)$(prefix)/bin
 
 clean: ## remove what was built, packages fetched for other machines excepted
-	rm -rf $(O)/obj $(O)/tests $(O)/*.a $(O)/owgen $(O)/owc $(O)/owsim
+	rm -rf $(O)/obj $(O)/tests $(O)/*.a $(O)/owgen $(O)/owc $(O)/owsim $(O)/owbench
 
 .PHONY: bench
 bench: programs ## the orders, shades and threads side by side (minutes)

@@ -14,7 +14,7 @@ $(O)/planes$(1).o: $(planes_src:%.c=$(O)/planes$(1)/%.o)
 	@echo "  ld $$@"
 	$(Q)$$(call planes_tool,ld) -r -o $$@ $$^
 	$(Q)$$(call planes_tool,nm) -g --defined-only $$@ | \
-	    sed -n 's/^[^ ]* [A-Z] \(ow_[a-z0-9_]*\)$$$$/\1 planes$(1)_\1/p; s/^[^ ]* [A-Z] \(viewer_[a-z0-9_]*\)$$$$/\1 planes$(1)_\1/p' >$$@.names
+	    awk '{ print $$$$3, "planes$(1)_" $$$$3 }' >$$@.names
 	$(Q)$$(call planes_tool,objcopy) --redefine-syms=$$@.names $$@
 -include $$(shell find $(O)/planes$(1) -name '*.d' 2>/dev/null)
 endef

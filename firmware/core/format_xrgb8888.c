@@ -8,33 +8,13 @@ enum {
     LONG = 128, /* one of more by copying */
 };
 
-static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value);
-
 static uint32_t same(uint32_t rgb)
 {
     return rgb & 0xFFFFFF;
 }
 
-/* Copies what is there already, twice as much each time: the machine's widest stores. */
-static void fill_long(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
+static void fill_short(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
 {
-    uint8_t *to = row + first * sizeof(ow_word32);
-    size_t all = (end - first) * sizeof(ow_word32);
-    size_t done = LONG / 2 * sizeof(ow_word32);
-    fill(row, first, first + LONG / 2, value);
-    while (done < all) {
-        size_t more = all - done < done ? all - done : done;
-        memcpy(to + done, to, more);
-        done += more;
-    }
-}
-
-static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
-{
-    if (end > first + LONG) {
-        fill_long(row, first, end, value);
-        return;
-    }
     ow_word32 *pixel = (ow_word32 *)(void *)row;
     uint32_t word = ow_little32(value);
     if ((first & 1) && first < end) {
@@ -54,6 +34,29 @@ static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
     }
     if (first < end) {
         pixel[first] = word;
+    }
+}
+
+/* Copies what is there already, twice as much each time: the machine's widest stores. */
+static void fill_long(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
+{
+    uint8_t *to = row + first * sizeof(ow_word32);
+    size_t all = (end - first) * sizeof(ow_word32);
+    size_t done = LONG / 2 * sizeof(ow_word32);
+    fill_short(row, first, first + LONG / 2, value);
+    while (done < all) {
+        size_t more = all - done < done ? all - done : done;
+        memcpy(to + done, to, more);
+        done += more;
+    }
+}
+
+static void fill(uint8_t *row, uint32_t first, uint32_t end, uint32_t value)
+{
+    if (end > first + LONG) {
+        fill_long(row, first, end, value);
+    } else {
+        fill_short(row, first, end, value);
     }
 }
 

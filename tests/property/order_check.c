@@ -89,7 +89,10 @@ static void set_margins(struct judge *j)
     j->check->margin_q8 = q8;
     j->margins = xalloc(a->planes->count, sizeof *j->margins);
     for (uint32_t i = 0; i < a->planes->count; i++) {
+        const double *n = a->planes->all[i].normal;
+        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         j->margins[i] = exact_tolerance(a->planes->all[i].n, q8);
+        j->margins[i] += (int64_t)ceil(j->check->doubt * length);
     }
 }
 

@@ -22,6 +22,8 @@ struct order_check {
     const struct tree *tree;
     const struct repaired *repaired; /* judge the rounded outlines; NULL: the exact pieces */
     uint32_t tolerance_q8;           /* what may be wrong, lattice steps with 8 fraction bits */
+    double
+        doubt; /* rounded arithmetic of the strategy: far less than a step, which is allowed too */
     /* Results. */
     uint64_t pairs;     /* that were judged */
     uint64_t decisive;  /* of these, where one can hide the other */

@@ -329,7 +329,7 @@ static bool join(struct merger *m, uint32_t first, uint32_t second)
         put_joined(m, &count, corner_at(q, chain.q_from + i));
     }
     struct outline joined = { m->joined, (uint32_t)count };
-    if (!outline_is_convex(m, &joined)) {
+    if (count < 3 || !outline_is_convex(m, &joined)) {
         return false;
     }
     for (uint32_t i = 0; i <= chain.edges; i++) {

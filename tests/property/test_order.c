@@ -71,7 +71,8 @@ static const struct way ways[] = {
     { "obstruction, two", METHOD_OBSTRUCTION, BSP_FIRST, STEP, EXACTLY | ALONE | TWO_SIDED, 11, 2 },
     { "obstruction, step", METHOD_OBSTRUCTION, BSP_FIRST, STEP, ALONE, 11, 4 },
     { "obstruction, tolerance", METHOD_OBSTRUCTION, BSP_FIRST, WIDE, ALONE, 11, 6 },
-    { "obstruction, tolerance, two", METHOD_OBSTRUCTION, BSP_FIRST, WIDE, ALONE | TWO_SIDED, 11, 8 },
+    { "obstruction, tolerance, two", METHOD_OBSTRUCTION, BSP_FIRST, WIDE, ALONE | TWO_SIDED, 11,
+      8 },
     { "smallest", METHOD_OBSTRUCTION, BSP_FIRST, STEP, EXACTLY, 37, 0 },
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };

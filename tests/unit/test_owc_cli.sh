@@ -76,6 +76,13 @@ report $? "--help and --version"
     [ ! -s out.log ] && [ ! -s err.log ] && "$owc" --info tree.owt >info.log &&
     grep -q "^polygons  *6:" info.log && grep -q "closed model" info.log
 report $? "a cube compiles silently and is described"
+awk 'BEGIN { for (i = 0; i < 16; i++) for (k = 0; k < 16; k++) print "v", i, k, 3 * sin(i * k)
+             for (i = 0; i < 15; i++) for (k = 1; k < 16; k++) { a = 16 * i + k
+                 print "f", a, a + 16, a + 17; print "f", a, a + 17, a + 1 } }' >waves.obj
+"$owc" waves.obj -o one.owt --threads 1 --stats waves.json 2>/dev/null &&
+    "$owc" waves.obj -o three.owt --threads 3 2>/dev/null && cmp -s one.owt three.owt &&
+    grep -q '"connecting_nodes":	[1-9][0-9]' waves.json
+report $? "the tree is the same for any number of threads"
 missing=0
 for key in source_polygons input_polygons output_polygons splits nodes switch_nodes \
     connecting_nodes depth one_way_relations vertices blob_bytes bytes_per_polygon seconds; do

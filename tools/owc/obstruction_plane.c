@@ -47,6 +47,11 @@ struct chooser {
     uint32_t cut_count;
     uint32_t *targets; /* faces that the plane being improved cuts */
     uint32_t target_count;
+    float *chances; /* that a face must be cut where it lies across */
+    struct tally {
+        uint16_t across; /* how often each face lay across a plane, */
+        uint16_t cut;    /* and could not stay whole */
+    } * tallies;
 };
 
 static double bits(double n)
@@ -104,11 +109,12 @@ static enum obstruction_place candidate_place(const struct chooser *c,
 
 /* Counts faces by place, notes those across, and the places of all if asked to. */
 static void place_faces(struct chooser *c, const struct candidate *candidate, uint8_t *places,
-                        uint32_t most, uint32_t counts[4])
+                        double most, uint32_t counts[4])
 {
+    double cuts = 0;
     memset(counts, 0, 4 * sizeof counts[0]);
     c->cut_count = 0;
-    for (uint32_t i = 0; i < c->boxes.count && c->cut_count <= most;) {
+    for (uint32_t i = 0; i < c->boxes.count && cuts <= most;) {
         const struct obstruction_box *box = &c->boxes.all[i];
         const uint32_t *faces = c->boxes.faces + box->first;
         double reach;
@@ -127,6 +133,7 @@ static void place_faces(struct chooser *c, const struct candidate *candidate, ui
             counts[place]++;
             if (place == OBSTRUCTION_ACROSS) {
                 c->cut[c->cut_count++] = faces[k];
+                cuts += (double)c->chances[faces[k]];
             }
             if (places != NULL) {
                 places[faces[k]] = (uint8_t)place;
@@ -141,20 +148,31 @@ static double judge(struct chooser *c, const struct candidate *candidate, double
 {
     uint32_t counts[4];
     double most = 2 * limit * c->set->count + 8;
-    place_faces(c, candidate, NULL, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX, counts);
-    double cuts = counts[OBSTRUCTION_ACROSS];
-    double front = counts[OBSTRUCTION_FRONT];
-    double back = counts[OBSTRUCTION_BACK];
-    bool further = counts[OBSTRUCTION_ON] > 0 || (front > 0 && back > 0);
-    return further && cuts <= most ? score_of(c, cuts, bits(front + cuts) + bits(back + cuts))
-                                   : INFINITY;
+    place_faces(c, candidate, NULL, most, counts);
+    double cuts = 0;
+    for (uint32_t i = 0; i < c->cut_count; i++) {
+        cuts += (double)c->chances[c->cut[i]];
+    }
+    double front = counts[OBSTRUCTION_FRONT] + cuts / 2 + c->cut_count / 2.0;
+    double back = counts[OBSTRUCTION_BACK] + cuts / 2 + c->cut_count / 2.0;
+    bool further = counts[OBSTRUCTION_ON] > 0 ||
+                   (counts[OBSTRUCTION_FRONT] > 0 && counts[OBSTRUCTION_BACK] > 0);
+    return further && cuts <= most ? score_of(c, cuts, bits(front) + bits(back)) : INFINITY;
+}
+
+static void note(struct tally *tally, bool cut)
+{
+    if (tally->across < UINT16_MAX) {
+        tally->across++;
+        tally->cut += cut;
+    }
 }
 
 /* Judges a candidate by what cannot stay whole; fills places. */
 static double judge_whole(struct chooser *c, const struct candidate *candidate, double limit)
 {
     uint32_t counts[4];
-    place_faces(c, candidate, c->places, UINT32_MAX, counts);
+    place_faces(c, candidate, c->places, INFINITY, counts);
     double most = smaller(2 * limit * c->set->count + 8, UINT32_MAX);
     double cuts =
         keeper_keep(&c->keeper, candidate->normal, candidate->offset, c->places, (uint32_t)most);
@@ -164,6 +182,7 @@ static double judge_whole(struct chooser *c, const struct candidate *candidate, 
     uint32_t left = 0;
     for (uint32_t i = 0; i < c->cut_count; i++) {
         uint8_t place = c->places[c->cut[i]];
+        note(&c->tallies[c->cut[i]], place == OBSTRUCTION_ACROSS);
         counts[place] += place != OBSTRUCTION_ACROSS;
         c->cut[left] = c->cut[i];
         left += place == OBSTRUCTION_ACROSS;
@@ -455,8 +474,24 @@ static int compare_candidates(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
+/* What was seen of each face says how likely it is to be cut; of the others, the average. */
+static void find_chances(struct chooser *c)
+{
+    double across = 2;
+    double cut = 1;
+    for (uint32_t i = 0; i < c->set->count; i++) {
+        across += c->tallies[i].across;
+        cut += c->tallies[i].cut;
+    }
+    double average = cut / across;
+    for (uint32_t i = 0; i < c->set->count; i++) {
+        c->chances[i] = (float)((c->tallies[i].cut + average) / (c->tallies[i].across + 1));
+    }
+}
+
 static void find_finalists(struct chooser *c)
 {
+    c->best_count = 0;
     try_own_planes(c);
     for (uint32_t i = 0; i < c->effort->edges; i++) {
         try_edge(c);
@@ -470,6 +505,32 @@ static void find_finalists(struct chooser *c)
         c->best[i].cuts = c->cut_count;
     }
     qsort(c->best, c->best_count, sizeof *c->best, compare_candidates);
+}
+
+/* Finalists of several passes, each with what the ones before have taught. */
+static void find_all_finalists(struct chooser *c)
+{
+    uint32_t most = c->effort->finalists;
+    uint32_t kept_most = c->effort->looks;
+    struct candidate *kept = xalloc((size_t)most + kept_most, sizeof *kept);
+    uint32_t kept_count = 0;
+    for (uint32_t pass = 0; pass < c->effort->passes; pass++) {
+        if (pass > 0 && kept[0].cuts == 0) {
+            break;
+        }
+        find_finalists(c);
+        memcpy(kept + kept_count, c->best, c->best_count * sizeof *kept);
+        kept_count += c->best_count;
+        if (kept_count == 0) {
+            break;
+        }
+        qsort(kept, kept_count, sizeof *kept, compare_candidates);
+        kept_count = kept_count < kept_most ? kept_count : kept_most;
+        find_chances(c);
+    }
+    memcpy(c->best, kept, kept_count * sizeof *kept);
+    c->best_count = kept_count;
+    free(kept);
 }
 
 /* Of those that cut as little as the best, the best by the components that they leave. */
@@ -539,9 +600,14 @@ void obstruction_choose(struct obstruction_choice *choice, uint8_t *places,
     c.places = xalloc(set->count, sizeof *c.places);
     c.cut = xalloc(set->count, sizeof *c.cut);
     c.targets = xalloc(set->count, sizeof *c.targets);
+    c.chances = xalloc(set->count, sizeof *c.chances);
+    c.tallies = xalloc_zero(set->count, sizeof *c.tallies);
+    for (uint32_t i = 0; i < set->count; i++) {
+        c.chances[i] = 1;
+    }
     obstruction_boxes_begin(&c.boxes, set);
     keeper_begin(&c.keeper, set);
-    find_finalists(&c);
+    find_all_finalists(&c);
     if (set->count <= effort->ahead) {
         look_ahead(&c);
     }
@@ -552,4 +618,6 @@ void obstruction_choose(struct obstruction_choice *choice, uint8_t *places,
     free(c.places);
     free(c.cut);
     free(c.targets);
+    free(c.chances);
+    free(c.tallies);
 }

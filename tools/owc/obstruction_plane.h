@@ -10,7 +10,7 @@
 #include "random.h"
 #include "split.h"
 
-/* How hard a good plane is looked for. */
+/* How hard a good plane is looked for; no number is 0 but ahead. */
 struct obstruction_effort {
     uint32_t own;        /* polygons' own planes tried */
     uint32_t edges;      /* planes through an edge and a vertex tried */
@@ -19,6 +19,7 @@ struct obstruction_effort {
     uint32_t climbers;   /* the best so many candidates are improved, */
     uint32_t climbs;     /* in so many steps */
     uint32_t finalists;  /* candidates of which is counted what stays whole */
+    uint32_t passes;     /* all this so often, each time with what was learnt */
     uint32_t ahead;      /* up to so many faces, the components that are left are found for */
     uint32_t looks;      /* the best so many */
     double price;        /* what a switch costs, in cuts */

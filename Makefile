@@ -204,8 +204,9 @@ golden-update: ## write the golden files anew (look at the difference before you
 	$(submake) programs tests
 	@scripts/suites golden-update
 
-fuzz: ## libFuzzer on every target, FUZZ_SECONDS each (600)
+fuzz: ## libFuzzer on every target, FUZZ_SECONDS each (600); FUZZ_SCENES trees (1000000)
 	@scripts/setup check cross
+	$(submake) $(O)/tests/test_order
 	$(submake) O=build/fuzz CC=clang \
 	    CFLAGS='-O1 -g -fsanitize=fuzzer-no-link' SAN=1 fuzzers
 	@scripts/fuzz

@@ -73,6 +73,12 @@ static int frame_is_whole(struct sim_panel *panel)
     return panel->config.frame == NULL ? OW_OK : panel->config.frame(panel->config.context, panel);
 }
 
+/* The last byte of a pixel. */
+static uint32_t kept_mask(const struct sim_panel *panel)
+{
+    return 0xFFu << (panel->config.format->bits - 8);
+}
+
 static int sim_info(void *device, struct ow_panel_info *info)
 {
     struct sim_panel *panel = device;
@@ -86,6 +92,7 @@ static int sim_info(void *device, struct ow_panel_info *info)
         .format = panel->config.format,
         .align_x = panel->config.align_x,
         .align_y = panel->config.align_y,
+        .keep = panel->config.kept != NULL ? kept_mask(panel) : 0,
         .buffers = panel->config.kind == SIM_PANEL_TAKES ? 0 : panel->config.buffers,
     };
     return OW_OK;
@@ -111,10 +118,35 @@ static int sim_lend(void *device, struct ow_panel_buffer *buffer)
     return OW_OK;
 }
 
+/* Fills a buffer with what nobody drew; the kept bytes stay. */
+static void poison_buffer(struct sim_panel *panel, uint32_t number)
+{
+    uint8_t *buffer = panel->buffers[number];
+    memset(buffer, POISON, (size_t)panel->buffer_stride * panel->height);
+    uint32_t pixel_bytes = panel->config.format->bits / 8;
+    size_t count = panel->config.kept != NULL ? (size_t)panel->width * panel->height : 0;
+    for (size_t i = 0; i < count; i++) {
+        buffer[(i + 1) * pixel_bytes - 1] = panel->config.kept[i];
+    }
+}
+
 static void lose_buffer(struct sim_panel *panel)
 {
-    memset(panel->buffers[panel->next], POISON, (size_t)panel->buffer_stride * panel->height);
+    poison_buffer(panel, panel->next);
     panel->shown_at[panel->next] = 0;
+}
+
+/* Whether the kept bytes are what they were. */
+static bool kept_is_intact(const struct sim_panel *panel)
+{
+    uint32_t pixel_bytes = panel->config.format->bits / 8;
+    size_t count = panel->config.kept != NULL ? (size_t)panel->width * panel->height : 0;
+    for (size_t i = 0; i < count; i++) {
+        if (panel->buffers[0][(i + 1) * pixel_bytes - 1] != panel->config.kept[i]) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static int sim_show(void *device, const struct ow_panel_rect *changed, uint32_t count)
@@ -124,6 +156,9 @@ static int sim_show(void *device, const struct ow_panel_rect *changed, uint32_t 
         return refuse(panel, "show without lend");
     }
     panel->lent = false;
+    if (!kept_is_intact(panel)) {
+        return refuse(panel, "show: bits were written that only their owner may write");
+    }
     for (uint32_t i = 0; i < count; i++) {
         if (!rect_is_good(panel, &changed[i])) {
             return refuse(panel, "show: a rectangle is empty, outside or not aligned");
@@ -206,6 +241,12 @@ static int sim_done(void *device, uint32_t pending)
 
 /* ---- settings ---- */
 
+static uint32_t stride_of(const struct sim_panel *panel)
+{
+    uint32_t padded = (panel->row_bytes + 3) / 4 * 4;
+    return panel->config.kept != NULL ? padded : padded + 4; /* else never without padding */
+}
+
 static int sim_set(void *device, enum ow_panel_setting setting, int32_t value)
 {
     struct sim_panel *panel = device;
@@ -223,7 +264,7 @@ static int sim_set(void *device, enum ow_panel_setting setting, int32_t value)
     panel->width = sideways ? panel->config.height : panel->config.width;
     panel->height = sideways ? panel->config.width : panel->config.height;
     panel->row_bytes = ow_row_bytes(panel->config.format, panel->width);
-    panel->buffer_stride = (panel->row_bytes + 3) / 4 * 4 + 4; /* never without padding */
+    panel->buffer_stride = stride_of(panel);
     return OW_OK;
 }
 
@@ -256,7 +297,7 @@ static bool make_buffers(struct sim_panel *panel)
         if (panel->buffers[i] == NULL) {
             return false;
         }
-        memset(panel->buffers[i], POISON, bytes);
+        poison_buffer(panel, i);
     }
     return true;
 }
@@ -275,7 +316,11 @@ bool sim_panel_open(struct sim_panel *panel, const struct sim_panel_config *conf
     }
     panel->panel = (struct ow_panel){ &sim_ops[own->kind], panel };
     panel->row_bytes = ow_row_bytes(own->format, own->width);
-    panel->buffer_stride = (panel->row_bytes + 3) / 4 * 4 + 4; /* never without padding */
+    panel->buffer_stride = stride_of(panel);
+    if (own->kept != NULL && (own->kind != SIM_PANEL_LENDS || own->buffers != 1 || own->rotates ||
+                              panel->buffer_stride != panel->row_bytes)) {
+        return false;
+    }
     if (!make_buffers(panel)) {
         sim_panel_close(panel);
         return false;
@@ -311,7 +356,8 @@ uint32_t sim_panel_crc(const struct sim_panel *panel, uint32_t crc)
 {
     const struct ow_pixel_format *format = panel->config.format;
     uint8_t row[4 * OW_PANEL_SIZE_MAX];
-    bool spare = format->bits == 32 && format->used != 0xFFFFFFFFu;
+    uint32_t pixel_bytes = format->bits / 8;
+    bool spare = pixel_bytes >= 3; /* 24 and 32 bits have a byte that does not show */
     uint32_t tail = panel->width * format->bits % 8; /* bits of the last byte, if it is not full */
     for (uint32_t y = 0; y < panel->height; y++) {
         memcpy(row, panel->screen + (size_t)y * panel->row_bytes, panel->row_bytes);
@@ -319,11 +365,17 @@ uint32_t sim_panel_crc(const struct sim_panel *panel, uint32_t crc)
             row[panel->row_bytes - 1] &= (uint8_t)(0xFF00u >> tail);
         }
         for (uint32_t x = 0; spare && x < panel->width; x++) {
-            for (uint32_t i = 0; i < 4; i++) { /* 32-bit words are little-endian */
-                row[4 * x + i] &= (uint8_t)(format->used >> (8 * i));
+            for (uint32_t i = 0; i < pixel_bytes; i++) { /* they are little-endian */
+                row[pixel_bytes * x + i] &= (uint8_t)(format->used >> (8 * i));
             }
         }
         crc = ow_crc32(crc, row, panel->row_bytes);
     }
     return crc;
+}
+
+const uint8_t *sim_panel_kept(const struct sim_panel *panel, uint32_t *stride)
+{
+    *stride = panel->config.format->bits / 8;
+    return panel->config.kept != NULL ? panel->buffers[0] + *stride - 1 : NULL;
 }

@@ -31,7 +31,12 @@ struct sim_panel_config {
     uint16_t align_y;
     uint16_t buffers; /* lent in turn, 1 .. SIM_PANEL_BUFFERS; 0 means 1 */
     bool rotates;     /* can set the rotation */
-    uint32_t delay;   /* a write is through after `done` was asked so often; 0: at once */
+    /*
+     * Lending, one buffer: the last byte of each pixel holds these, line by line, and is only
+     * to be read; the format says so. Lines are not padded then. NULL: nothing is kept.
+     */
+    const uint8_t *kept;
+    uint32_t delay; /* a write is through after `done` was asked so often; 0: at once */
     /* Faults: every n-th call, and the n-th call, fail with fail_status; 0: none does. */
     uint32_t fail_every;
     uint32_t fail_at;
@@ -79,6 +84,9 @@ void sim_panel_close(struct sim_panel *panel);
 
 /* What is seen, as a picture. */
 bool sim_panel_image(const struct sim_panel *panel, struct image *image, struct image_error *error);
+
+/* With kept bytes: where the first of them lies, and how far apart they are. */
+const uint8_t *sim_panel_kept(const struct sim_panel *panel, uint32_t *stride);
 
 /* zlib's CRC-32 of what is seen, continued: packed rows, spare bits 0. */
 uint32_t sim_panel_crc(const struct sim_panel *panel, uint32_t crc);

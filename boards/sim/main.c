@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "bench.h"
+#include "engine.h"
 #include "output.h"
 #include "settings.h"
 #include "sim/sim_clock.h"
@@ -26,6 +27,8 @@ enum { SCRIPT_BYTES_MAX = 1 << 26, REPEAT_US = 50000, MS_US = 1000 };
 struct run {
     struct settings settings;
     struct tree_file tree;
+    const struct engine *engine;
+    struct ow_parts parts; /* the engine's, as the options choose */
     struct views views;
     struct output output;
     struct sim_panel panel;
@@ -67,19 +70,45 @@ static void open_script(struct run *run)
     run->config.repeat_us = REPEAT_US;
 }
 
+/* The format that leaves the tree's byte of each pixel alone. */
+static const struct ow_pixel_format *kept_format(const struct ow_pixel_format *format)
+{
+    return format == &ow_format_rgb565 ? &ow_format_x8rgb565_kept : &ow_format_xrgb8888_kept;
+}
+
+/* The tree goes where it stays, into the panel's memory, and is opened there. */
+static void open_planes(struct run *run)
+{
+    uint32_t stride;
+    const uint8_t *first = sim_panel_kept(&run->panel, &stride);
+    run->engine = stride == 4 ? &planes4_ow_engine : &planes3_ow_engine;
+    enum ow_status status = run->engine->tree_open(
+        &run->tree.tree, first, run->tree.planes_size[0] * run->tree.planes_size[1]);
+    if (status != OW_OK) {
+        fail(FAIL_INPUT, run->tree.name, 0, "in planes: %s", ow_status_text(status));
+    }
+}
+
 static void open_panel(struct run *run)
 {
     const struct settings *settings = &run->settings;
     struct sim_panel_config config = {
         .width = (uint16_t)settings->size[0],
         .height = (uint16_t)settings->size[1],
-        .format = settings->format,
+        .format = settings->planes ? kept_format(settings->format) : settings->format,
         .kind = settings->panel,
+        .kept = run->tree.planes,
         .frame = output_frame,
         .context = &run->output,
     };
     if (!sim_panel_open(&run->panel, &config)) {
-        fail(FAIL_INPUT, NULL, 0, "not enough memory for the panel");
+        fail(FAIL_INPUT, NULL, 0,
+             settings->planes ? "planes need lines of whole 32-bit words"
+                              : "not enough memory for the panel");
+    }
+    run->engine = &ow_engine;
+    if (settings->planes) {
+        open_planes(run);
     }
 }
 
@@ -90,6 +119,24 @@ static void check_tree(const struct run *run)
         fail(FAIL_INPUT, run->tree.name, 0,
              "the tree has no polygon numbers, compile it with owc --keep-ids");
     }
+}
+
+static void open_tree(struct run *run)
+{
+    struct settings *settings = &run->settings;
+    if (!settings->planes) {
+        tree_file_open(&run->tree, settings->tree);
+        return;
+    }
+    tree_file_open_planes(&run->tree, settings->tree);
+    const uint32_t *size = run->tree.planes_size;
+    if (settings->has_size && (settings->size[0] != size[0] || settings->size[1] != size[1])) {
+        settings_wrong("the planes are %" PRIu32 "x%" PRIu32 ", so is the picture: leave out "
+                       "--size",
+                       size[0], size[1]);
+    }
+    settings->size[0] = size[0];
+    settings->size[1] = size[1];
 }
 
 /* The cutting plane in lattice units; its direction is the same. */
@@ -131,7 +178,11 @@ static void start_viewer(struct run *run)
     const struct settings *settings = &run->settings;
     struct ow_viewer_config *config = &run->config;
     run->clock = (struct ow_clock){ &sim_virtual_clock_ops, &run->time };
-    config->parts = &settings->parts;
+    run->parts = *run->engine->parts;
+    if (settings->segments) {
+        run->parts.dynamic = run->engine->segments;
+    }
+    config->parts = &run->parts;
     config->tree = &run->tree.tree;
     config->look = settings->look;
     if (settings->cuts) {
@@ -164,12 +215,12 @@ static void start_viewer(struct run *run)
         config->probe = bench_probe;
         config->probe_context = &run->bench;
     }
-    uint32_t bytes = ow_viewer_bytes_needed(config);
+    uint32_t bytes = run->engine->bytes_needed(config);
     run->memory = bytes == 0 ? NULL : malloc(bytes);
     if (run->memory == NULL) {
         fail(FAIL_INPUT, run->tree.name, 0, "not enough memory to draw this tree");
     }
-    int status = ow_viewer_start(&run->viewer, config, run->memory, bytes);
+    int status = run->engine->start(&run->viewer, config, run->memory, bytes);
     if (status < 0) {
         fail(FAIL_INPUT, run->tree.name, 0, "cannot start the viewer: %s", ow_status_text(status));
     }
@@ -221,7 +272,7 @@ static void draw_all(struct run *run, bool first)
 {
     while (!run->viewer.finished) {
         uint64_t before_ns = run->bench.pass_ns;
-        int status = ow_viewer_step(&run->viewer);
+        int status = run->engine->step(&run->viewer);
         if (status < 0) {
             fail(FAIL_INPUT, run->tree.name, 0, "frame %" PRIu32 ": %s", run->viewer.frames,
                  ow_status_text(status));
@@ -237,7 +288,7 @@ static void measure(struct run *run)
     uint32_t frames = run->viewer.frames;
     run->output.off = true;
     while (bench_end_pass(&run->bench, frames, run->settings.passes)) {
-        ow_viewer_restart(&run->viewer);
+        run->engine->restart(&run->viewer);
         draw_all(run, false);
     }
     bench_print(&run->bench, &run->settings, frames, &run->sum, run->output.crc);
@@ -280,7 +331,7 @@ int main(int argc, char **argv)
     static struct run run; /* large: names and times */
     fail_set_program("owsim");
     settings_read(&run.settings, argc, argv);
-    tree_file_open(&run.tree, run.settings.tree);
+    open_tree(&run);
     check_tree(&run);
     views_make(&run.views, &run.settings, &run.tree);
     if (run.settings.script != NULL) {

@@ -45,6 +45,8 @@ static const char notes[] =
     "  units, from the eye or, with --light-in-model, in the model, as bright far away as near.\n"
     "--bench prints one line of JSON: times of drawing alone, counts summed over the frames.\n"
     "--compare: exit status 1 if a frame differs; writes NAME-actual and NAME-diff pictures.\n"
+    "--planes: xrgb8888 has the tree in its spare byte; rgb565 in a third byte of each pixel. The\n"
+    "  picture is as large as the planes.\n"
     "--dump-views: the exact integers that each view is drawn by, as JSON; 64-bit ones as text.\n";
 
 /* What the options leave before they are put together. */
@@ -148,6 +150,13 @@ static void check_look(const struct settings *settings, const struct raw *raw)
     if (look->shade == OW_SHADE_ID && settings->format != &ow_format_xrgb8888) {
         settings_wrong("--shade id needs --format xrgb8888: numbers have 24 bits");
     }
+    if (settings->planes && settings->format != &ow_format_xrgb8888 &&
+        settings->format != &ow_format_rgb565) {
+        settings_wrong("--planes leaves room for a tree beside --format xrgb8888 and rgb565");
+    }
+    if (settings->planes && settings->panel != SIM_PANEL_LENDS) {
+        settings_wrong("--planes are in the panel's own memory, leave out --panel write");
+    }
     if (look->coverage && (look->shade == OW_SHADE_ID || look->shade == OW_SHADE_LINES)) {
         settings_wrong("--aa 4x4 mixes colours, it does not go with --shade %s",
                        shades[look->shade]);
@@ -187,10 +196,7 @@ static void read_look(struct settings *settings, const struct raw *raw)
     look->cap = look->caps ? read_colour("cap", raw->cap) : 0;
     lights_read(look, &settings->light_places, &raw->lights, 1 - raw->ambient, raw->light_in_model);
     settings->format = ow_formats[raw->format];
-    settings->parts = ow_parts_all;
-    if (raw->unlit != 0) {
-        settings->parts.dynamic = &ow_surface_segments;
-    }
+    settings->segments = raw->unlit != 0;
     settings->panel = panel_kinds[raw->panel];
     check_look(settings, raw);
 }
@@ -295,7 +301,11 @@ static void set_defaults(struct settings *settings, struct raw *raw)
 static size_t add_views(struct option_spec *to, struct settings *s, struct raw *raw)
 {
     const struct option_spec specs[] = {
-        { "size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX },
+        { "size", 0, OPTION_SIZE, s->size, "WxH", "pixels", .max = OW_SCREEN_MAX,
+          .given = &s->has_size },
+        { "planes", 0, OPTION_FLAG, &s->planes, NULL,
+          .help = "the tree lies in a plane image, and there it is read while the picture is "
+                  "painted beside it" },
         { "eye", 0, OPTION_VECTOR, s->eye, "x,y,z", "where the eye is, in model units",
           .given = &s->has_eye, .no_default = true },
         { "at", 0, OPTION_VECTOR, s->at, "x,y,z", "what it looks at (the model's middle)",

@@ -12,7 +12,9 @@
 
 struct settings {
     const char *tree; /* a file, or "-" */
+    bool planes;      /* it is a plane image */
     uint32_t size[2]; /* pixels */
+    bool has_size;
 
     /* Views: one by eye, a file of them, or the orbit. Model units and degrees. */
     double eye[3];
@@ -32,7 +34,7 @@ struct settings {
     struct light_places light_places;
     double depth_cue[2]; /* model units; both 0: none */
     const struct ow_pixel_format *format;
-    struct ow_parts parts;
+    bool segments; /* the dynamic screen keeps lists, not bits */
     enum sim_panel_kind panel;
     uint32_t threads;
     bool cuts;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "ow_read.h"
+#include "planes_file.h"
 #include "tools/common/fail.h"
 
 enum { FIRST_BYTES = 1 << 16 };
@@ -69,15 +70,14 @@ static double read_double(const uint8_t *bytes, size_t at)
 }
 
 /* The core has no floating point and does not look at these fields. */
-static void read_lattice(struct tree_file *file)
+static void read_lattice(struct tree_file *file, const uint8_t *blob)
 {
     bool good = true;
     for (size_t i = 0; i < 3; i++) {
-        file->origin[i] =
-            read_double(file->bytes, offsetof(struct ow_disk_header, origin_bits) + 8 * i);
+        file->origin[i] = read_double(blob, offsetof(struct ow_disk_header, origin_bits) + 8 * i);
         good = good && isfinite(file->origin[i]);
     }
-    file->step = read_double(file->bytes, offsetof(struct ow_disk_header, step_bits));
+    file->step = read_double(blob, offsetof(struct ow_disk_header, step_bits));
     if (!good || !isfinite(file->step) || !(file->step > 0)) {
         fail(FAIL_INPUT, file->name, 0,
              "the header's origin or step is not a sound number, "
@@ -99,7 +99,17 @@ static const char *remedy(enum ow_status status)
     }
 }
 
-void tree_file_open(struct tree_file *file, const char *name)
+/* Opens the tree in these bytes. */
+static void open_blob(struct tree_file *file, const uint8_t *blob, uint32_t bytes)
+{
+    enum ow_status status = ow_tree_open(&file->tree, blob, bytes);
+    if (status != OW_OK) {
+        fail(FAIL_INPUT, file->name, 0, "%s%s", ow_status_text(status), remedy(status));
+    }
+    read_lattice(file, blob);
+}
+
+static size_t read_file(struct tree_file *file, const char *name)
 {
     size_t bytes;
     *file = (struct tree_file){ .name = strcmp(name, "-") == 0 ? "standard input" : name };
@@ -107,11 +117,25 @@ void tree_file_open(struct tree_file *file, const char *name)
     if (bytes == 0) {
         fail(FAIL_INPUT, file->name, 0, "the file is empty");
     }
-    enum ow_status status = ow_tree_open(&file->tree, file->bytes, (uint32_t)bytes);
-    if (status != OW_OK) {
-        fail(FAIL_INPUT, file->name, 0, "%s%s", ow_status_text(status), remedy(status));
+    return bytes;
+}
+
+void tree_file_open(struct tree_file *file, const char *name)
+{
+    size_t bytes = read_file(file, name);
+    open_blob(file, file->bytes, (uint32_t)bytes);
+}
+
+void tree_file_open_planes(struct tree_file *file, const char *name)
+{
+    size_t bytes = read_file(file, name);
+    size_t head = planes_file_head(file->bytes, bytes, file->planes_size);
+    if (head == 0) {
+        fail(FAIL_INPUT, file->name, 0,
+             "this is no whole plane image (a binary PGM), make one with owc --planes");
     }
-    read_lattice(file);
+    file->planes = (const uint8_t *)file->bytes + head;
+    open_blob(file, file->planes, file->planes_size[0] * file->planes_size[1]);
 }
 
 void tree_file_close(struct tree_file *file)

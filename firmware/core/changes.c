@@ -18,6 +18,11 @@ static uint32_t runs_for(uint32_t width)
                                         : runs;
 }
 
+static uint32_t listed_for(uint32_t height)
+{
+    return (3 * height + 1) / 2;
+}
+
 static uint32_t bits_bytes(const struct ow_changes *changes)
 {
     return changes->words_in_line * changes->height * (uint32_t)sizeof(uint32_t);
@@ -27,7 +32,7 @@ uint32_t ow_changes_bytes_needed(uint16_t width, uint16_t height)
 {
     uint32_t runs = runs_for(width);
     return words_for(width) * height * (uint32_t)sizeof(uint32_t) +
-           (uint32_t)OW_CHANGES_LISTED_PER_LINE * height * (uint32_t)sizeof(struct ow_change) +
+           listed_for(height) * (uint32_t)sizeof(struct ow_change) +
            (runs + 1) * (uint32_t)sizeof(struct ow_changes_step) +
            (2 * runs + 1) / 2 * 2 * (uint32_t)sizeof(uint16_t);
 }
@@ -39,7 +44,7 @@ void ow_changes_place(struct ow_changes *changes, uint16_t width, uint16_t heigh
     changes->width = width;
     changes->height = height;
     changes->runs_max = runs_for(width);
-    changes->listed_max = (uint32_t)OW_CHANGES_LISTED_PER_LINE * height;
+    changes->listed_max = listed_for(height);
     changes->listed = 0;
     changes->opened = 0;
     uint8_t *at = (uint8_t *)memory + bits_bytes(changes);

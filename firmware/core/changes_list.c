@@ -88,9 +88,9 @@ static void offer(const struct ow_changes *changes, uint32_t from, uint32_t to, 
     struct ow_changes_step *after = &changes->steps[to + 1];
     if (cost < after->cost || (cost == after->cost && grows != 0)) {
         after->cost = cost;
-        after->from = (uint16_t)from;
-        after->grows = (uint16_t)grows;
-        after->used = grows != 0 ? (uint16_t)grows : changes->steps[from].used;
+        after->from = (uint8_t)from;
+        after->grows = (uint8_t)grows;
+        after->used = grows != 0 ? (uint8_t)grows : changes->steps[from].used;
     }
 }
 
@@ -149,14 +149,14 @@ static void turn_way(struct ow_changes_step *steps, uint32_t runs)
     for (uint32_t at = runs; at > 0;) {
         uint32_t from = steps[at].from;
         uint32_t own = steps[at].grows;
-        steps[at].from = (uint16_t)next;
-        steps[at].grows = (uint16_t)grows;
+        steps[at].from = (uint8_t)next;
+        steps[at].grows = (uint8_t)grows;
         next = at;
         grows = own;
         at = from;
     }
-    steps[0].from = (uint16_t)next;
-    steps[0].grows = (uint16_t)grows;
+    steps[0].from = (uint8_t)next;
+    steps[0].grows = (uint8_t)grows;
 }
 
 static uint32_t new_rects(const struct ow_changes *changes, uint32_t runs)

@@ -19,7 +19,7 @@ static void fill(const struct ow_pixel_format *format, uint8_t *row, uint32_t y,
 {
     uint32_t whole = (first + PERIOD - 1) / PERIOD; /* periods, as numbered from the left */
     uint32_t end_whole = end / PERIOD;
-    if (whole + 1 >= end_whole) {
+    if (format->keeps || whole + 1 >= end_whole) {
         fill_each(format, row, y, first, end, rgb);
         return;
     }

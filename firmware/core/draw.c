@@ -44,8 +44,14 @@ static bool parts_are_there(const struct ow_parts *parts, const struct ow_look *
     return order && parts->shading[look->shade] != NULL &&
            (!ow_look_has_effect(look) || parts->effect != NULL) &&
            (!look->coverage || parts->coverage != NULL) &&
+           (look->poses == NULL || parts->instances != NULL) &&
            (look->shade != OW_SHADE_LINES || parts->lines != NULL) &&
            (!look->dither || parts->dither != NULL);
+}
+
+static bool draws_instances(const struct ow_frame *frame)
+{
+    return frame->look->poses != NULL && frame->workspace->instances != NULL;
 }
 
 /* Begins the walk; what the last one counted is added up. */
@@ -56,6 +62,12 @@ static enum ow_status begin_walk(struct ow_frame *frame, enum ow_direction direc
     const struct ow_skipping *skip = frame->workspace->parts->skip;
     if (skip != NULL) {
         frame->walk.skip = (struct ow_walk_skip){ skip->hides, frame };
+    }
+    if (draws_instances(frame)) {
+        const struct ow_instancing *instances = frame->workspace->parts->instances;
+        instances->leave(frame); /* the last walk may have ended in one */
+        frame->walk.instances =
+            (struct ow_walk_instances){ instances->enter, instances->leave, frame };
     }
     return status;
 }
@@ -105,6 +117,9 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     if (status == OW_OK && workspace->cache_mask == OW_CACHE_ALL) {
         ow_project_vertices(tree, view, 0, tree->vertex_count, workspace->points);
+    }
+    if (status == OW_OK && draws_instances(frame)) {
+        parts->instances->begin(frame);
     }
     if (status == OW_OK && look->order == OW_SCAN_LINE) {
         status = parts->scan_line->begin(frame);
@@ -219,6 +234,7 @@ enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_targ
             .spans = frame->surface.spans_written,
             .nodes_skipped = frame->skipped,
             .polygons_unlisted = frame->unlisted,
+            .instances_outside = frame->instances_outside,
             .lines_outgrown = frame->surface.lines_outgrown,
             .polygons_dropped = frame->dropped,
         };
@@ -226,7 +242,10 @@ enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_targ
     if (frame->out_of_budget) {
         return OW_BUDGET;
     }
-    return frame->dropped > 0 ? OW_CAPACITY : OW_OK;
+    if (frame->dropped > 0) {
+        return OW_CAPACITY;
+    }
+    return frame->instances_outside > 0 ? OW_REGION : OW_OK;
 }
 
 enum ow_status ow_draw(const struct ow_tree *tree, const struct ow_view *view,

@@ -39,7 +39,7 @@ static uint32_t clip_outline(struct ow_frame *frame, const struct ow_face *face,
     return count < 3 ? 0 : count;
 }
 
-static inline uint32_t read_corner(const uint8_t *corners, uint32_t i, bool wide)
+static inline uint32_t read_corner(const ow_byte *corners, uint32_t i, bool wide)
 {
     return wide ? ow_read_u32(corners, 4 * i) : ow_read_u16(corners, 2 * i);
 }
@@ -57,7 +57,7 @@ static inline struct ow_outline_point look_up(const struct ow_frame *frame, uint
 }
 
 /* Looks up all corners, last first if reverse. False if one must be clipped first. */
-static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *corner_bytes,
+static inline bool look_up_corners(const struct ow_frame *frame, const ow_byte *corner_bytes,
                                    uint32_t corners, bool wide, bool reverse)
 {
     const struct ow_outline_point *points = frame->workspace->points;
@@ -78,7 +78,7 @@ static inline bool look_up_corners(const struct ow_frame *frame, const uint8_t *
 static uint32_t project_outline(struct ow_frame *frame, const struct ow_face *face)
 {
     const struct ow_tree *tree = frame->tree;
-    const uint8_t *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
+    const ow_byte *corner_bytes = tree->bytes + face->at + tree->corners_in_record;
     uint32_t corners = ow_read_u8(tree->bytes, face->at);
     bool wide = (tree->flags & OW_TREE_INDEX32) != 0;
     return look_up_corners(frame, corner_bytes, corners, wide, face->reverse)

@@ -10,7 +10,7 @@ _Static_assert(2LL * OW_GUARD * SKIP <= UINT32_MAX, "what skip divides fits 32 b
 
 bool ow_edge_is_marked(const struct ow_tree *tree, const struct ow_face *face, uint32_t i)
 {
-    const uint8_t *bytes = tree->bytes;
+    const ow_byte *bytes = tree->bytes;
     if (!(ow_read_u16(bytes, face->at + 4) & OW_POLYGON_MARKED)) {
         return false;
     }

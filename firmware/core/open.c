@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 #include "ow_memory.h"
+#include "ow_open.h"
 #include "ow_read.h"
 #include "ow_tree.h"
 
@@ -19,10 +20,11 @@ struct tally {
     uint32_t nodes;
     uint32_t depth;
     uint32_t max_corners;
+    uint32_t instances;
     uint32_t next_child; /* offset of the first node that nothing has referred to yet */
 };
 
-static enum ow_status check_identity(const uint8_t *bytes, uint32_t size)
+static enum ow_status check_identity(const ow_byte *bytes, uint32_t size)
 {
     if (size < sizeof(struct ow_disk_header)) {
         return OW_TRUNCATED;
@@ -42,12 +44,12 @@ static enum ow_status check_identity(const uint8_t *bytes, uint32_t size)
         return OW_CORRUPT;
     }
     uint32_t after = FIELD(crc32) + 4;
-    uint32_t crc = ow_crc32(0, bytes, FIELD(crc32));
-    crc = ow_crc32(crc, bytes + after, blob_bytes - after);
+    uint32_t crc = ow_crc32_blob(0, bytes, FIELD(crc32));
+    crc = ow_crc32_blob(crc, bytes + after, blob_bytes - after);
     return crc == ow_read_u32(bytes, FIELD(crc32)) ? OW_OK : OW_CHECKSUM;
 }
 
-static void read_header(struct ow_tree *tree, const uint8_t *bytes)
+static void read_header(struct ow_tree *tree, const ow_byte *bytes)
 {
     tree->bytes = bytes;
     tree->blob_bytes = ow_read_u32(bytes, FIELD(blob_bytes));
@@ -65,6 +67,8 @@ static void read_header(struct ow_tree *tree, const uint8_t *bytes)
     tree->vertices_at = ow_read_u32(bytes, FIELD(vertices_at));
     tree->normals_at = ow_read_u32(bytes, FIELD(normals_at));
     tree->colours_at = ow_read_u32(bytes, FIELD(colours_at));
+    tree->instances_at = ow_read_u32(bytes, FIELD(instances_at));
+    tree->instance_count = ow_read_u32(bytes, FIELD(instance_count));
     tree->corners_in_record = OW_POLYGON_HEAD_BYTES + ((tree->flags & OW_TREE_IDS) ? 4 : 0);
     for (uint32_t i = 0; i < 3; i++) {
         tree->box_min[i] = (int16_t)ow_read_i16(bytes, FIELD(box_min) + 2 * i);
@@ -91,8 +95,6 @@ static bool section_fits(const struct ow_tree *tree, uint32_t begin, uint32_t en
 
 static enum ow_status check_header(const struct ow_tree *tree)
 {
-    const uint8_t *bytes = tree->bytes;
-    uint32_t instances_at = ow_read_u32(bytes, FIELD(instances_at));
     uint32_t normal_count = (tree->flags & OW_TREE_NORMALS) ? tree->vertex_count : 0;
     bool sections =
         tree->nodes_at == sizeof(struct ow_disk_header) && tree->nodes_at <= tree->polygons_at &&
@@ -100,10 +102,12 @@ static enum ow_status check_header(const struct ow_tree *tree)
         section_fits(tree, tree->vertices_at, tree->normals_at, tree->vertex_count,
                      OW_VERTEX_BYTES) &&
         section_fits(tree, tree->normals_at, tree->colours_at, normal_count, OW_NORMAL_BYTES) &&
-        section_fits(tree, tree->colours_at, instances_at, tree->colour_count, OW_COLOUR_BYTES) &&
-        section_fits(tree, instances_at, tree->blob_bytes, 0, 1);
+        section_fits(tree, tree->colours_at, tree->instances_at, tree->colour_count,
+                     OW_COLOUR_BYTES) &&
+        section_fits(tree, tree->instances_at, tree->blob_bytes, tree->instance_count,
+                     OW_INSTANCE_BYTES);
     bool limits = (tree->flags & ~(uint32_t)OW_TREE_FLAGS_KNOWN) == 0 &&
-                  ow_read_u32(bytes, FIELD(instance_count)) == 0 &&
+                  tree->instance_count <= OW_MAX_INSTANCES &&
                   tree->vertex_count <= OW_MAX_VERTICES && tree->colour_count <= OW_MAX_COLOURS &&
                   tree->depth <= OW_MAX_DEPTH && tree->max_corners <= OW_MAX_CORNERS;
     for (uint32_t i = 0; i < 3; i++) {
@@ -157,7 +161,7 @@ static bool polygon_is_valid(const struct ow_tree *tree, uint32_t value, struct 
 }
 
 /* Bytes of the node at this offset of the blob; 0 if it does not fit its section. */
-static uint32_t node_bytes(const struct ow_tree *tree, uint32_t at)
+uint32_t ow_node_bytes(const struct ow_tree *tree, uint32_t at)
 {
     if (tree->polygons_at - at < 4) {
         return 0;
@@ -171,6 +175,18 @@ static uint32_t node_bytes(const struct ow_tree *tree, uint32_t at)
     return bytes <= tree->polygons_at - at ? bytes : 0;
 }
 
+/* The node that an item refers to, in 4 bytes from the first one, is the next. */
+static bool child_is_valid(const struct ow_tree *tree, uint32_t value, struct tally *tally)
+{
+    uint32_t at = tally->next_child;
+    if (at >= tree->polygons_at || value != (at - tree->nodes_at) / 4) {
+        return false;
+    }
+    uint32_t bytes = ow_node_bytes(tree, at);
+    tally->next_child = at + bytes;
+    return bytes != 0;
+}
+
 /* An item of a node: a valid face, or the next node that nothing has referred to. */
 static bool item_is_valid(const struct ow_tree *tree, uint32_t item, struct tally *tally)
 {
@@ -180,17 +196,13 @@ static bool item_is_valid(const struct ow_tree *tree, uint32_t item, struct tall
         return (tree->flags & OW_TREE_TWO_SIDED) && polygon_is_valid(tree, value, tally);
     case OW_ITEM_FACE:
         return polygon_is_valid(tree, value, tally);
-    case OW_ITEM_NODE: {
-        uint32_t at = tally->next_child;
-        if (at >= tree->polygons_at || value != (at - tree->nodes_at) / 4) {
-            return false;
-        }
-        uint32_t bytes = node_bytes(tree, at);
-        tally->next_child = at + bytes;
-        return bytes != 0;
-    }
+    case OW_ITEM_NODE:
+        return child_is_valid(tree, value, tally);
     default:
-        return false; /* instances are not in version 1 */
+        return value == tally->instances++ && value < tree->instance_count &&
+               child_is_valid(
+                   tree, ow_read_u32(tree->bytes, tree->instances_at + value * OW_INSTANCE_BYTES),
+                   tally);
     }
 }
 
@@ -237,7 +249,7 @@ static bool nodes_are_valid(const struct ow_tree *tree, struct tally *tally)
 {
     uint32_t at = tree->nodes_at;
     uint32_t level_end = at;
-    tally->next_child = at + node_bytes(tree, at);
+    tally->next_child = at + ow_node_bytes(tree, at);
     if (tally->next_child == at) {
         return false;
     }
@@ -250,7 +262,7 @@ static bool nodes_are_valid(const struct ow_tree *tree, struct tally *tally)
             return false;
         }
         tally->nodes++;
-        at += node_bytes(tree, at);
+        at += ow_node_bytes(tree, at);
     }
     return at == tree->polygons_at;
 }
@@ -258,7 +270,7 @@ static bool nodes_are_valid(const struct ow_tree *tree, struct tally *tally)
 /* Whoever has looked at the box need not look at each vertex: it holds them all. */
 static bool vertices_are_valid(const struct ow_tree *tree)
 {
-    const uint8_t *place = tree->bytes + tree->vertices_at;
+    const ow_byte *place = tree->bytes + tree->vertices_at;
     for (uint32_t v = 0; v < tree->vertex_count; v++) {
         for (uint32_t i = 0; i < 3; i++, place += 2) {
             int32_t coordinate = ow_read_i16(place, 0);
@@ -270,7 +282,8 @@ static bool vertices_are_valid(const struct ow_tree *tree)
     return true;
 }
 
-enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t size)
+enum ow_status ow_open(struct ow_tree *tree, const void *bytes, uint32_t size,
+                       bool (*instances_are_valid)(const struct ow_tree *tree))
 {
     struct ow_tree found;
     memset(&found, 0, sizeof found);
@@ -287,11 +300,22 @@ enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t si
     struct tally tally;
     memset(&tally, 0, sizeof tally);
     if (!nodes_are_valid(&found, &tally) || tally.faces != found.face_count ||
-        tally.switches != found.switch_count || tally.nodes != found.node_count ||
-        tally.depth != found.depth || tally.max_corners != found.max_corners ||
-        !vertices_are_valid(&found)) {
+        tally.instances != found.instance_count || tally.switches != found.switch_count ||
+        tally.nodes != found.node_count || tally.depth != found.depth ||
+        tally.max_corners != found.max_corners || !vertices_are_valid(&found)) {
+        return OW_CORRUPT;
+    }
+    if (found.instance_count > 0 && instances_are_valid == NULL) {
+        return OW_UNSUPPORTED;
+    }
+    if (found.instance_count > 0 && !instances_are_valid(&found)) {
         return OW_CORRUPT;
     }
     *tree = found;
     return OW_OK;
+}
+
+enum ow_status ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t size)
+{
+    return ow_open(tree, bytes, size, NULL);
 }

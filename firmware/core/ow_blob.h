@@ -24,7 +24,8 @@ enum {
     OW_MAX_COLOURS = 4096,       /* of one tree */
     OW_MAX_VERTICES = 1 << 24,   /* a vertex number leaves 8 bits for the cache's stamp */
     OW_MAX_BLOB_BYTES = 1 << 30, /* an item holds a 30-bit offset in units of 2 or 4 bytes */
-    OW_MAX_DEPTH = 1 << 24       /* levels of nodes */
+    OW_MAX_DEPTH = 1 << 24,      /* levels of nodes */
+    OW_MAX_INSTANCES = 4096      /* of one tree */
 };
 
 /* struct ow_disk_header.flags */
@@ -58,7 +59,7 @@ struct ow_disk_header {
     uint32_t depth; /* levels of nodes, the root's is 1: what the walk's stack needs */
     uint32_t max_corners;
     uint32_t colour_count;
-    uint32_t instance_count; /* 0 in version 1 */
+    uint32_t instance_count; /* instance items in all nodes */
     uint32_t nodes_at;
     uint32_t polygons_at;
     uint32_t vertices_at; /* int16 x, y, z */
@@ -83,15 +84,15 @@ enum {
     OW_ITEM_FACE = 0,     /* a polygon's front; value: offset from polygons_at, in 2 bytes */
     OW_ITEM_REVERSE = 1,  /* a polygon's back; value likewise */
     OW_ITEM_NODE = 2,     /* value: offset from nodes_at, in 4 bytes */
-    OW_ITEM_INSTANCE = 3, /* reserved: refused in version 1 */
+    OW_ITEM_INSTANCE = 3, /* value: number of the instance */
     OW_ITEM_TAG_BITS = 2
 };
 #define OW_ITEM_NONE 0xFFFFFFFFu /* a switch has no child on that side */
 
 /*
  * Nodes. The first lies at nodes_at; they lie level by level: the n-th node
- * item met while reading the nodes in order refers to the n-th node after
- * the root. So each node has one parent, before it, and a reader can check
+ * item or instance item met while reading the nodes in order refers to the
+ * n-th node after the root. So each node has one parent, before it, and a reader can check
  * this with one cursor.
  *
  *   word 0   kind in bits 0-1, OW_NODE_BOUNDED, count of items in bits 8-31
@@ -122,6 +123,27 @@ enum {
 };
 
 /*
+ * An instance: an object that moves as a whole, under a pose that the program
+ * gives when it draws. Its root is the node that its item refers to; the n-th
+ * instance item met refers to instance n, from 0. Its nodes have no instance items.
+ * Its vertices reach from first_vertex to the next instance's, or to the last
+ * one; no other face has them, and it has no others. They have a lattice of their
+ * own, with the tree's step; its point 0,0,0 is what the pose places. All of them
+ * lie in the sphere about centre. Wherever the pose puts that sphere within the
+ * region, a box in the tree's lattice, the order is right.
+ */
+struct ow_disk_instance {
+    uint32_t node; /* of the object's root: offset from nodes_at, in 4 bytes */
+    uint32_t first_vertex;
+    uint32_t zero; /* kept for the scale of the object's lattice */
+    int16_t region_min[3];
+    int16_t region_max[3];
+    int16_t centre[3];
+    uint16_t radius;
+};
+_Static_assert(sizeof(struct ow_disk_instance) == 32, "an instance has no hidden padding");
+
+/*
  * Polygon records, each at a multiple of 2 bytes:
  *
  *   uint8  corner count, 3 .. 255
@@ -140,7 +162,8 @@ enum {
     OW_POLYGON_FLAGS_KNOWN = 0x3000,
     OW_VERTEX_BYTES = 6,
     OW_NORMAL_BYTES = 3,
-    OW_COLOUR_BYTES = 4
+    OW_COLOUR_BYTES = 4,
+    OW_INSTANCE_BYTES = 32
 };
 
 #endif

@@ -20,11 +20,11 @@ struct ow_change {
 
 /*
  * Capacities. A line has as many runs of its own as its width over 4, within
- * these bounds: further ones are joined to the last. The list has room for two
- * rectangles for each line of the frame: when it is full, its last one holds
- * whatever has changed below.
+ * these bounds: further ones are joined to the last. The list has room for three
+ * rectangles for each two lines of the frame: when it is full, its last one
+ * holds whatever has changed below.
  */
-enum { OW_CHANGES_RUNS_MIN = 8, OW_CHANGES_RUNS_MAX = 64, OW_CHANGES_LISTED_PER_LINE = 2 };
+enum { OW_CHANGES_RUNS_MIN = 8, OW_CHANGES_RUNS_MAX = 64 };
 
 /*
  * A run of a line, and the cheapest way to have covered the line's runs before
@@ -34,10 +34,9 @@ struct ow_changes_step {
     uint32_t cost;  /* bits */
     uint16_t first; /* the run's pixels */
     uint16_t end;
-    uint16_t from;
-    uint16_t grows; /* the place of the open rectangle that grows, and 1; 0: a new one */
-    uint16_t used;  /* open rectangles that are used or passed */
-    uint16_t padding;
+    uint8_t from;
+    uint8_t grows; /* the place of the open rectangle that grows, and 1; 0: a new one */
+    uint8_t used;  /* open rectangles that are used or passed */
 };
 
 /* Filled by ow_changes_place; a bit for each pixel. */

@@ -67,6 +67,15 @@ struct ow_gradient_backdrop {
 
 struct ow_backdrop ow_backdrop_of_gradient(struct ow_gradient_backdrop *gradient);
 
+/*
+ * Where an instance's object stands in the tree's lattice: its point v at
+ * rotation v + place. rotation: a proper rotation, 30 fraction bits, row by row.
+ */
+struct ow_pose {
+    ow_q30 rotation[3][3];
+    ow_q8 place[3];
+};
+
 /* How a frame is to look. */
 struct ow_look {
     enum ow_order order;
@@ -107,6 +116,12 @@ struct ow_look {
      */
     bool caps;
     uint32_t cap;
+    /*
+     * Of each of the tree's instances. One that leaves its region is drawn, but what it
+     * hides and what hides it may be wrong; one that leaves the tree's cube, or whose
+     * rotation is none, is left out; both are counted. NULL: no instance is drawn.
+     */
+    const struct ow_pose *poses;
     const struct ow_backdrop *backdrop; /* instead of background; NULL: none; not with coverage */
 };
 
@@ -135,6 +150,7 @@ struct ow_stats {
     uint32_t nodes_skipped;     /* bounded nodes out of view, facing away or covered */
     uint32_t polygons_unlisted; /* scan line order: no room in the list; lines then walk anew */
     uint32_t lines_outgrown;    /* ow_surface_segments: lines whose list became bits */
+    uint32_t instances_outside; /* objects that are outside their region */
     uint32_t polygons_dropped;  /* outlines that clipping made too long for the workspace */
 };
 
@@ -172,6 +188,7 @@ struct ow_workspace {
     uint32_t *open_tiles;       /* front to back: a bit for each tile that may have unlit pixels */
     struct ow_samples *samples; /* coverage: of each pixel; NULL: there is no memory for it */
     uint32_t *sampled;          /* coverage: a bit for each pixel whose samples are in use */
+    struct ow_instance_state *instances; /* NULL: there are none, or they are not drawn */
     uint32_t span_capacity;
     struct ow_listed_face *listed;
     uint32_t *line_heads;
@@ -211,7 +228,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
  * depend on the order, the bands or the cache. In scan line order each band
  * must be below the last one. stats, unless NULL: counted since ow_draw_begin.
  * Errors: OW_ARGUMENT, OW_CAPACITY (the rest was drawn), OW_BUDGET (the near was
- * drawn; in this band or one before).
+ * drawn; in this band or one before), OW_REGION (all was drawn).
  */
 enum ow_status ow_draw_band(struct ow_workspace *workspace, const struct ow_target *target,
                             struct ow_stats *stats);

@@ -39,6 +39,19 @@ struct ow_line_order {
 };
 extern const struct ow_line_order ow_line_order;
 
+/* Instances: what draw.c and scan_lines.c ask of them. */
+struct ow_instancing {
+    uint32_t state_bytes; /* in the workspace */
+    /* When the shader is made and the tree's vertices are projected. */
+    void (*begin)(struct ow_frame *frame);
+    /* The walk comes to an instance, and leaves it; context: the frame. */
+    bool (*enter)(void *context, uint32_t number, uint32_t *node_at);
+    void (*leave)(void *context);
+    /* Into the space that frame->face is in. */
+    void (*go_to_face)(struct ow_frame *frame);
+};
+extern const struct ow_instancing ow_instancing;
+
 /* What one call of ow_draw works with. */
 struct ow_frame {
     struct ow_span_sink sink; /* first: the frame is found from its sink */
@@ -59,6 +72,8 @@ struct ow_frame {
     uint32_t tag; /* the stamp in bits 24-31 */
     bool out_of_budget;
     uint32_t dropped;
+    uint32_t instance;                /* in whose space all is done, from 1; 0: the tree\'s */
+    uint32_t instances_outside;       /* of their region */
     const struct ow_face_kind *faces; /* NULL: they are filled */
     uint32_t visited;                 /* faces that walks came by */
     uint32_t skipped;                 /* nodes that walks left out */

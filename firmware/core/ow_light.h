@@ -17,7 +17,7 @@ _Static_assert(3 * 128 * (OW_INTENSITY_MAX * (int64_t)OW_PER_NORMAL_Q22 / 64 + 1
 _Static_assert((OW_LIGHTS_MAX + 1LL) * OW_LIGHT_FULL < INT32_MAX, "all lights' sum fits 32 bits");
 
 /* A stored normal of the side that is seen; the cap's where a cut shows the inside. */
-static inline void ow_seen_normal(const struct ow_shader *shader, const uint8_t *bytes,
+static inline void ow_seen_normal(const struct ow_shader *shader, const ow_byte *bytes,
                                   uint32_t normal_at, bool reverse, int32_t normal[3])
 {
     for (uint32_t i = 0; i < 3; i++) {
@@ -37,6 +37,19 @@ static inline int32_t ow_shine_directional(const struct ow_shader *shader, const
         sum += light > 0 ? light : 0;
     }
     return sum;
+}
+
+/* Sets a directional light, whose intensity is known, from its direction in model axes. */
+static inline void ow_light_set_direction(struct ow_ready_light *light,
+                                          const int32_t towards_q14[3])
+{
+    for (uint32_t i = 0; i < 3; i++) {
+        int32_t t = towards_q14[i];
+        t = t > 1 << 14 ? 1 << 14 : t < -(1 << 14) ? -(1 << 14) : t;
+        int64_t along = (int64_t)t * light->intensity_q8;
+        light->towards_q14[i] = (int16_t)t;
+        light->light_q16[i] = (int32_t)((along * OW_PER_NORMAL_Q22) >> (14 + 22 - 16));
+    }
 }
 
 /* A sum of light as intensity, 65536 for full. */

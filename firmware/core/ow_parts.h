@@ -18,6 +18,7 @@ struct ow_dithering;
 struct ow_shading;
 struct ow_light_kind;
 struct ow_effect;
+struct ow_instancing;
 
 enum ow_shade {
     OW_SHADE_ID,      /* the source polygon's number as a colour, no light */
@@ -40,6 +41,7 @@ struct ow_parts {
     const struct ow_face_kind *lines;        /* OW_SHADE_LINES: ow_faces_in_lines */
     const struct ow_dithering *dither;       /* look.dither: ow_dithering */
     const struct ow_differences *difference; /* target.changes: ow_differences */
+    const struct ow_instancing *instances;   /* look.poses: ow_instancing */
     const struct ow_skipping *skip;          /* saves time: ow_skipping */
     void (*draw_small)(struct ow_frame *);   /* saves time: ow_draw_small */
 };

@@ -6,6 +6,7 @@
 #ifndef OW_PIXEL_H
 #define OW_PIXEL_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Pixels first .. end-1 of a scan line. */
@@ -19,6 +20,7 @@ struct ow_pixel_format {
     const char *name;
     uint8_t bits;  /* of a pixel, spare bits included */
     uint32_t used; /* mask of the packed value's bits that show; the others are 0 */
+    bool keeps;    /* in memory the others are somebody else's: never written, never read */
     /* 0x00RRGGBB to the format's value, rounded to the nearest level. */
     uint32_t (*pack)(uint32_t rgb);
     /* The inverse: 0x00RRGGBB, exact at the ends 0 and 255. */
@@ -50,7 +52,15 @@ extern const struct ow_pixel_format ow_format_gray8;     /* bytes of luminance *
 extern const struct ow_pixel_format ow_format_gray4;     /* 2 pixels a byte, the left one high */
 extern const struct ow_pixel_format ow_format_mono;      /* 8 pixels a byte, the leftmost highest */
 
-/* All of them, and the one of this name or NULL. A program that uses these contains all formats. */
+/*
+ * Two that leave a byte of each pixel alone, which belongs to somebody else: a
+ * tree in bit planes. Their names are not in the list below: memory must suit.
+ */
+extern const struct ow_pixel_format ow_format_xrgb8888_kept; /* the high byte of 32-bit words */
+extern const struct ow_pixel_format
+    ow_format_x8rgb565_kept; /* the third byte; the first two RGB565 */
+
+/* The others, and the one of this name or NULL. A program that uses these contains all of them. */
 extern const struct ow_pixel_format *const ow_formats[];
 extern const uint32_t ow_format_count;
 const struct ow_pixel_format *ow_format_by_name(const char *name);

@@ -68,7 +68,7 @@ static inline struct ow_camera_point ow_lattice_to_camera(const struct ow_view *
 static inline struct ow_camera_point ow_to_camera(const struct ow_tree *tree,
                                                   const struct ow_view *view, uint32_t vertex)
 {
-    const uint8_t *place = tree->bytes + tree->vertices_at + vertex * OW_VERTEX_BYTES;
+    const ow_byte *place = tree->bytes + tree->vertices_at + vertex * OW_VERTEX_BYTES;
     return ow_lattice_to_camera(view, ow_read_i16(place, 0), ow_read_i16(place, 2),
                                 ow_read_i16(place, 4));
 }

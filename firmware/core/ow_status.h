@@ -16,6 +16,7 @@ enum ow_status {
     OW_SIDES = -4,    /* a one-sided tree with sequences cannot show back faces */
     OW_NORMALS = -5,  /* smooth shading of a tree without vertex normals */
     OW_BUDGET = -6,   /* the work budget ran out: what is near is right, the rest is background */
+    OW_REGION = -7,   /* an object is outside its region: what hides what may be wrong there */
     /* The blob's side. */
     OW_MAGIC = -16,     /* these bytes are not an Oldwell tree */
     OW_VERSION = -17,   /* a tree of another format version */

@@ -44,6 +44,17 @@ struct ow_walk_skip {
     void *context;
 };
 
+/*
+ * Asked at each instance: false leaves it out; otherwise *node_at is the byte
+ * offset of the object's root, and ow_walk_see_by was called with the object's
+ * view. leave takes that back.
+ */
+struct ow_walk_instances {
+    bool (*enter)(void *context, uint32_t number, uint32_t *node_at);
+    void (*leave)(void *context);
+    void *context;
+};
+
 /* Private to walk.c, here so that the caller can place it. */
 struct ow_walk {
     const struct ow_tree *tree;
@@ -54,6 +65,7 @@ struct ow_walk {
     struct ow_walk_run run; /* the items being read */
     uint32_t faces_met;     /* all faces the walk came by, rejected ones included */
     uint32_t nodes_skipped;
+    struct ow_walk_instances instances; /* likewise; enter NULL: all are left out */
     struct ow_walk_skip skip; /* set between begin and the first next; hides NULL: never */
     enum ow_direction direction;
     bool fronts_only;  /* skip OW_ITEM_REVERSE */
@@ -64,7 +76,7 @@ struct ow_walk {
     int32_t doubt;       /* a face looks away for sure beyond this */
 };
 
-/* Bytes of stack that a walk of this tree needs: two entries a level. */
+/* Bytes of stack that a walk of this tree needs: two entries a level, one for an instance. */
 uint32_t ow_walk_stack_bytes(const struct ow_tree *tree);
 
 /*
@@ -74,6 +86,9 @@ uint32_t ow_walk_stack_bytes(const struct ow_tree *tree);
 enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
                              const struct ow_view *view, enum ow_direction direction,
                              enum ow_cull cull, struct ow_walk_run *stack);
+
+/* From now on the eye is this view's. */
+void ow_walk_see_by(struct ow_walk *walk, const struct ow_view *view);
 
 /*
  * The walk in the parts that ow_walk_next is made of, for loops that draw many

@@ -19,6 +19,7 @@ const struct ow_parts ow_parts_all = {
     .lines = &ow_faces_in_lines,
     .dither = &ow_dithering,
     .difference = &ow_differences,
+    .instances = &ow_instancing,
     .skip = &ow_skipping,
     .draw_small = ow_draw_small,
 };

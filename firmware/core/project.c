@@ -9,8 +9,8 @@ enum { ROUNDING = 8 }; /* camera units: what rounding may add to a vertex betwee
 
 bool ow_needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view)
 {
-    if (view->cuts) {
-        return false;
+    if (view->cuts || tree->instance_count > 0) {
+        return false; /* the box is not where the objects are */
     }
     for (uint32_t i = 0; i < 8; i++) { /* the corners of the box that holds all vertices */
         struct ow_camera_point p =
@@ -27,7 +27,7 @@ bool ow_needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view
 }
 
 /* Nothing to clip, perspective: the commonest case, without a branch. */
-static void project_perspective(const uint8_t *place, const struct ow_view *view, uint32_t count,
+static void project_perspective(const ow_byte *place, const struct ow_view *view, uint32_t count,
                                 struct ow_outline_point *points)
 {
     const struct ow_view v = *view; /* a copy, so that no store can touch what the loop reads */

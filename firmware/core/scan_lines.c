@@ -81,6 +81,9 @@ static void draw_at_hand(struct ow_frame *frame, uint32_t line)
             continue;
         }
         frame->face = (struct ow_face){ entry->at, entry->reverse };
+        if (frame->walk.instances.enter != NULL) {
+            frame->workspace->parts->instances->go_to_face(frame);
+        }
         if (ow_draw_face(frame) && !entry->painted) {
             entry->painted = true;
             frame->painted++;

@@ -4,8 +4,6 @@
 
 #include "ow_light.h"
 
-enum { ONE_Q14 = 1 << 14 };
-
 static void make_directional(struct ow_ready_light *ready, const struct ow_light *light,
                              const struct ow_view *view)
 {
@@ -17,12 +15,7 @@ static void make_directional(struct ow_ready_light *ready, const struct ow_light
         const int32_t given[3] = { towards[0], towards[1], towards[2] };
         ow_to_model(towards, given, view);
     }
-    for (int i = 0; i < 3; i++) {
-        towards[i] = towards[i] > ONE_Q14 ? ONE_Q14 : towards[i] < -ONE_Q14 ? -ONE_Q14 : towards[i];
-        int64_t along = (int64_t)towards[i] * ready->intensity_q8;
-        ready->towards_q14[i] = (int16_t)towards[i];
-        ready->light_q16[i] = (int32_t)((along * OW_PER_NORMAL_Q22) >> (14 + 22 - 16));
-    }
+    ow_light_set_direction(ready, towards);
 }
 
 static struct ow_ready_light *add_light(struct ow_shader *shader, const struct ow_light *light)

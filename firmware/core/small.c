@@ -10,18 +10,12 @@
 #include "scan_low.h"
 #include "walk_step.h"
 
-#if defined(__GNUC__)
-#define OW_INLINE __attribute__((always_inline)) inline
-#else
-#define OW_INLINE inline
-#endif
-
 enum { CORNERS = 8 }; /* of a face that goes the fast way, at most */
 
 /* What the loop reads over and over. */
 struct small_run {
-    const uint8_t *bytes;
-    const uint8_t *polygons;
+    const ow_byte *bytes;
+    const ow_byte *polygons;
     const struct ow_outline_point *points;
     uint32_t corners_in_record;
     uint32_t left_out; /* bits of an item that mean: not to be drawn */
@@ -37,7 +31,7 @@ static void draw_other(struct ow_frame *frame, uint32_t item)
     }
 }
 
-static inline uint32_t read_corner(const uint8_t *corners, uint32_t i, bool wide)
+static inline uint32_t read_corner(const ow_byte *corners, uint32_t i, bool wide)
 {
     return wide ? ow_read_u32(corners, 4 * i) : ow_read_u16(corners, 2 * i);
 }
@@ -161,7 +155,7 @@ static OW_INLINE struct ow_span *scan_triangle(struct ow_outline_point a, struct
 
 /* False if the face has to go the ordinary way. */
 static OW_INLINE bool draw_triangle(struct ow_frame *frame, const struct small_run *run,
-                                    uint32_t item, const uint8_t *corners, bool wide)
+                                    uint32_t item, const ow_byte *corners, bool wide)
 {
     const bool reverse = (item & OW_ITEM_REVERSE) != 0;
     const struct ow_outline_point p[3] = {
@@ -225,7 +219,7 @@ static inline struct bounds bounds_of(const struct ow_outline_point *p, uint32_t
 
 /* Likewise, for 4 .. CORNERS corners. */
 static inline bool draw_polygon(struct ow_frame *frame, const struct small_run *run, uint32_t item,
-                                const uint8_t *corners, uint32_t count, bool wide)
+                                const ow_byte *corners, uint32_t count, bool wide)
 {
     struct ow_outline_point p[CORNERS];
     bool reverse = (item & OW_ITEM_REVERSE) != 0;
@@ -279,9 +273,9 @@ static OW_INLINE void draw_faces(struct ow_frame *frame, const struct small_run 
         if (item & run->left_out) {
             continue;
         }
-        const uint8_t *record = run->polygons + (item >> OW_ITEM_TAG_BITS << 1);
-        const uint8_t *corners = record + run->corners_in_record;
-        uint32_t count = record[0];
+        const ow_byte *record = run->polygons + (item >> OW_ITEM_TAG_BITS << 1);
+        const ow_byte *corners = record + run->corners_in_record;
+        uint32_t count = ow_read_u8(record, 0);
         bool done = count == 3         ? draw_triangle(frame, run, item, corners, wide)
                     : count <= CORNERS ? draw_polygon(frame, run, item, corners, count, wide)
                                        : false;

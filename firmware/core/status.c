@@ -20,6 +20,8 @@ const char *ow_status_text(int status)
         return "the tree has no vertex normals; compile with --normals";
     case OW_BUDGET:
         return "the work budget ran out; only what is near was drawn";
+    case OW_REGION:
+        return "an object is outside its region; what hides what may be wrong there";
     case OW_MAGIC:
         return "not an Oldwell tree";
     case OW_VERSION:

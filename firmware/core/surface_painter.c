@@ -6,7 +6,8 @@
 static void begin(struct ow_surface *surface, uint32_t background)
 {
     const struct ow_target *target = surface->target;
-    bool lines_are_equal = surface->backdrop == NULL && surface->dither == NULL;
+    bool lines_are_equal =
+        surface->backdrop == NULL && surface->dither == NULL && !target->format->keeps;
     for (uint32_t i = 0; i < target->line_count; i++) {
         if (i > 0 && lines_are_equal) {
             memcpy(target->pixels + i * target->stride, target->pixels,

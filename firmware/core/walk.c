@@ -2,7 +2,8 @@
 /*
  * Stage "walk": one explicit stack of runs of items that are still to come. A
  * node met in a run puts the rest of the run there; a switch puts its coplanar
- * faces and its second child there: two entries a level at most.
+ * faces and its second child there: two entries a level at most. An instance
+ * puts a mark there, an empty run at 0, which ends it.
  */
 #include "walk_step.h"
 
@@ -10,7 +11,8 @@ enum { ENTRIES_A_LEVEL = 2 };
 
 uint32_t ow_walk_stack_bytes(const struct ow_tree *tree)
 {
-    return tree->depth * ENTRIES_A_LEVEL * (uint32_t)sizeof(struct ow_walk_run);
+    uint32_t entries = tree->depth * ENTRIES_A_LEVEL + (tree->instance_count > 0);
+    return entries * (uint32_t)sizeof(struct ow_walk_run);
 }
 
 int ow_eye_side(const struct ow_tree *tree, const struct ow_view *view, uint32_t plane_at)
@@ -44,7 +46,7 @@ _Static_assert(3LL * 127 * ((OW_EYE_MAX >> 8) + OW_LATTICE_MAX + 1) < INT32_MAX,
 static inline bool looks_away(const struct ow_walk *walk, uint32_t at, bool reverse)
 {
     const struct ow_tree *tree = walk->tree;
-    const uint8_t *bytes = tree->bytes;
+    const ow_byte *bytes = tree->bytes;
     uint32_t corner_at = at + tree->corners_in_record;
     uint32_t corner = (tree->flags & OW_TREE_INDEX32) ? ow_read_u32(bytes, corner_at)
                                                       : ow_read_u16(bytes, corner_at);
@@ -75,6 +77,7 @@ enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
     walk->faces_met = 0;
     walk->nodes_skipped = 0;
     walk->skip = (struct ow_walk_skip){ NULL, NULL };
+    walk->instances = (struct ow_walk_instances){ NULL, NULL, NULL };
     walk->direction = direction;
     walk->step = direction == OW_FARTHEST_FIRST ? 4 : 0u - 4;
     walk->fronts_only = cull == OW_CULL_BACK;
@@ -83,6 +86,32 @@ enum ow_status ow_walk_begin(struct ow_walk *walk, const struct ow_tree *tree,
     walk->run = (struct ow_walk_run){ 0, 0 };
     push(walk, (struct ow_walk_run){ tree->nodes_at, 0 });
     return OW_OK;
+}
+
+void ow_walk_see_by(struct ow_walk *walk, const struct ow_view *view)
+{
+    walk->view = view;
+    make_facing(walk, view);
+}
+
+struct ow_walk_run ow_walk_enter_instance(struct ow_walk *walk, uint32_t number)
+{
+    uint32_t node_at;
+    if (walk->instances.enter == NULL ||
+        !walk->instances.enter(walk->instances.context, number, &node_at)) {
+        return (struct ow_walk_run){ 0, 0 };
+    }
+    push(walk, (struct ow_walk_run){ 0, 0 });
+    return enter(walk, node_at);
+}
+
+struct ow_walk_run ow_walk_take_mark(struct ow_walk *walk, uint32_t at)
+{
+    if (at != 0) {
+        return enter(walk, at);
+    }
+    walk->instances.leave(walk->instances.context);
+    return (struct ow_walk_run){ 0, 0 };
 }
 
 bool ow_walk_to_face(struct ow_walk *walk)

@@ -9,13 +9,20 @@
 #include "ow_read.h"
 #include "ow_walk.h"
 
+/* For what is in a loop that has no room for a call. */
+#if defined(__GNUC__)
+#define OW_INLINE __attribute__((always_inline)) inline
+#else
+#define OW_INLINE inline
+#endif
+
 /* Component i of a plane's normal; i = 0 .. 2. */
-static inline int64_t plane_normal(const uint8_t *bytes, uint32_t plane_at, uint32_t i)
+static inline int64_t plane_normal(const ow_byte *bytes, uint32_t plane_at, uint32_t i)
 {
     return (int32_t)(ow_read_u32(bytes, plane_at + 4 * i) << 8) >> 8;
 }
 
-static inline int64_t plane_distance(const uint8_t *bytes, uint32_t plane_at)
+static inline int64_t plane_distance(const ow_byte *bytes, uint32_t plane_at)
 {
     int64_t high = (int64_t)ow_read_i8(bytes, plane_at + 7) * 256 + ow_read_u8(bytes, plane_at + 3);
     return high * 4294967296 + ow_read_u32(bytes, plane_at + 12);
@@ -50,7 +57,7 @@ static inline struct ow_walk_run run_of(const struct ow_walk *walk, uint32_t fir
 static inline struct ow_walk_run enter_switch(struct ow_walk *walk, uint32_t children_at,
                                               uint32_t coplanar)
 {
-    const uint8_t *bytes = walk->tree->bytes;
+    const ow_byte *bytes = walk->tree->bytes;
     int side = eye_side(walk->tree, walk->view, children_at + OW_SWITCH_CHILDREN_BYTES);
     bool front_first = (side > 0) == (walk->direction == OW_NEAREST_FIRST);
     uint32_t first_at = children_at + (front_first ? 0 : 4);
@@ -82,8 +89,14 @@ static inline struct ow_walk_run enter(struct ow_walk *walk, uint32_t at)
                                                           : enter_switch(walk, rest_at, count);
 }
 
+/* The first run of an object; it is empty if the object is left out. */
+struct ow_walk_run ow_walk_enter_instance(struct ow_walk *walk, uint32_t number);
+
+/* What an empty run on the stack stands for: the root, or at 0 an object's end. */
+struct ow_walk_run ow_walk_take_mark(struct ow_walk *walk, uint32_t at);
+
 /* Goes on to where the run's next item is a face. False at the walk's end. */
-static inline bool to_face(struct ow_walk *walk, struct ow_walk_run *run)
+static OW_INLINE bool to_face(struct ow_walk *walk, struct ow_walk_run *run)
 {
     for (;;) {
         while (run->left == 0) {
@@ -91,8 +104,8 @@ static inline bool to_face(struct ow_walk *walk, struct ow_walk_run *run)
                 return false;
             }
             *run = walk->stack[--walk->entries];
-            if (run->left == 0) { /* the root, which no item stands for */
-                *run = enter(walk, run->at);
+            if (run->left == 0) {
+                *run = ow_walk_take_mark(walk, run->at);
             }
         }
         uint32_t item = ow_read_u32(walk->tree->bytes, run->at);
@@ -103,7 +116,9 @@ static inline bool to_face(struct ow_walk *walk, struct ow_walk_run *run)
         if (--run->left > 0) {
             push(walk, *run);
         }
-        *run = enter(walk, walk->tree->nodes_at + 4 * (item >> OW_ITEM_TAG_BITS));
+        *run = (item & OW_ITEM_REVERSE)
+                   ? ow_walk_enter_instance(walk, item >> OW_ITEM_TAG_BITS)
+                   : enter(walk, walk->tree->nodes_at + 4 * (item >> OW_ITEM_TAG_BITS));
     }
 }
 

@@ -44,6 +44,11 @@ static uint64_t place(struct ow_workspace *workspace, const struct ow_tree *tree
     uint32_t words = (config->width + 31u) / 32;
     workspace->parts = config->parts;
     workspace->frame = cut(&cutter, 1, sizeof *workspace->frame);
+    const struct ow_instancing *instances = config->parts->instances;
+    workspace->instances = NULL;
+    if (instances != NULL && tree->instance_count > 0) {
+        workspace->instances = cut(&cutter, 1, instances->state_bytes);
+    }
     workspace->stack = cut(&cutter, ow_walk_stack_bytes(tree), 1);
     workspace->points = cut(&cutter, entries, sizeof *workspace->points);
     workspace->tags =

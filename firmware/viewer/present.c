@@ -86,7 +86,8 @@ static int draw_together(struct slices *slices)
     for (uint32_t i = 0; i < viewer->workers; i++) {
         const struct ow_viewer_worker *worker = &viewer->worker[i];
         add_stats(&viewer->stats, &worker->stats);
-        if (worker->status == OW_CAPACITY || worker->status == OW_BUDGET) {
+        if (worker->status == OW_CAPACITY || worker->status == OW_BUDGET ||
+            worker->status == OW_REGION) {
             viewer->drawn = (enum ow_status)worker->status;
         } else if (worker->status < 0) {
             status = worker->status;

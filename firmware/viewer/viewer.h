@@ -109,7 +109,7 @@ struct ow_viewer {
     uint32_t number; /* of the view drawn last or to be drawn next */
     uint32_t frames; /* shown since the start */
     enum ow_status
-        drawn; /* of the last frame: OW_OK, OW_CAPACITY or OW_BUDGET (something was left out) */
+        drawn; /* of the last frame: OW_OK, OW_CAPACITY, OW_BUDGET (something was left out) or OW_REGION */
     struct ow_view view;   /* of the last frame, turned as the panel needs it */
     uint8_t turned;        /* quarter turns that the panel leaves to the projection */
     struct ow_stats stats; /* of the last frame */

@@ -92,7 +92,7 @@ refused "a weight without conflicts" 2 'goes with --select conflict' \
     "$dir/cubes.obj" --conflict-weight 3 -o "$new"
 refused "two outputs on one stream" 2 'only one of' "$dir/cubes.obj" --explain --stats - -o "$new"
 
-prints "explanation" '^polygon [0-9]+ split by the plane of polygon [0-9]+$' \
+prints "explanation" '^polygon [0-9]+ split by the plane of polygon [0-9]+, from' \
     "$dir/cubes.obj" --method online --explain -o "$new"
 prints "picture" '</svg>' "$dir/cubes.obj" --plot - -o "$new"
 refused "a picture that cannot be written" 1 'nowhere' \

@@ -4,6 +4,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -159,6 +160,38 @@ void builder_bound(struct builder *b, uint32_t node)
     n->axis[2] = 127;
 }
 
+uint32_t builder_begin_instance(struct builder *b)
+{
+    assert(b->instance_count < BUILDER_INSTANCES);
+    b->instances[b->instance_count].first_vertex = b->vertex_count;
+    return b->instance_count++;
+}
+
+void builder_end_instance(struct builder *b, uint32_t root, const int region[2][3])
+{
+    struct built_instance *o = &b->instances[b->instance_count - 1];
+    int low[3], high[3];
+    o->root = root;
+    for (int i = 0; i < 3; i++) {
+        low[i] = 32767;
+        high[i] = -32767;
+        for (uint32_t v = o->first_vertex; v < b->vertex_count; v++) {
+            low[i] = b->vertices[v][i] < low[i] ? b->vertices[v][i] : low[i];
+            high[i] = b->vertices[v][i] > high[i] ? b->vertices[v][i] : high[i];
+        }
+        o->centre[i] = (int16_t)((low[i] + high[i]) / 2);
+        o->region[0][i] = (int16_t)region[0][i];
+        o->region[1][i] = (int16_t)region[1][i];
+    }
+    for (uint32_t v = o->first_vertex; v < b->vertex_count; v++) {
+        double squares = 0;
+        for (int i = 0; i < 3; i++) {
+            squares += pow(b->vertices[v][i] - o->centre[i], 2);
+        }
+        o->radius = sqrt(squares) > o->radius ? (uint16_t)ceil(sqrt(squares)) : o->radius;
+    }
+}
+
 /* ---- bytes ---------------------------------------------------------------------------------- */
 struct bytes {
     uint8_t *data;
@@ -223,7 +256,7 @@ struct layout {
     uint32_t node_at[BUILDER_NODES];
     uint32_t polygon_at[BUILDER_POLYGONS];
     uint32_t count;
-    uint32_t faces, switches, depth, max_corners;
+    uint32_t faces, switches, depth, max_corners, instances;
 };
 
 static uint32_t node_size(const struct built_node *n)
@@ -242,9 +275,11 @@ static void meet_item(struct layout *l, uint32_t item, uint32_t level)
     if (item == 0) {
         return;
     }
-    if (i->kind == OW_ITEM_NODE) {
+    if (i->kind == OW_ITEM_NODE || i->kind == OW_ITEM_INSTANCE) {
+        bool is_node = i->kind == OW_ITEM_NODE;
         assert(l->count < BUILDER_NODES);
-        l->order[l->count] = i->number;
+        l->order[l->count] = is_node ? i->number : l->b->instances[i->number].root;
+        l->instances += !is_node;
         l->level[l->count++] = level + 1;
     } else {
         const struct built_polygon *p = &l->b->polygons[i->number];
@@ -297,8 +332,9 @@ static uint32_t item_word(const struct layout *l, uint32_t item)
         return OW_ITEM_NONE;
     }
     const struct built_item *i = &l->b->items[item];
-    uint32_t value =
-        i->kind == OW_ITEM_NODE ? l->node_at[i->number] / 4 : l->polygon_at[i->number] / 2;
+    uint32_t value = i->kind == OW_ITEM_INSTANCE ? i->number
+                     : i->kind == OW_ITEM_NODE   ? l->node_at[i->number] / 4
+                                                 : l->polygon_at[i->number] / 2;
     return i->kind | value << OW_ITEM_TAG_BITS;
 }
 
@@ -365,6 +401,7 @@ static void put_counts(struct bytes *out, const struct layout *l)
     set(out, HEAD(depth), l->depth, 4);
     set(out, HEAD(max_corners), l->max_corners, 4);
     set(out, HEAD(colour_count), b->colour_count, 4);
+    set(out, HEAD(instance_count), l->instances, 4);
     set(out, HEAD(tolerance_q8), 256, 4);
     uint64_t bits;
     for (size_t i = 0; i < 3; i++) {
@@ -415,6 +452,16 @@ static void put_sections(struct bytes *out, const struct layout *l)
         put(out, b->colours[i], 4);
     }
     set(out, HEAD(instances_at), out->size, 4);
+    for (uint32_t i = 0; i < b->instance_count; i++) {
+        const struct built_instance *o = &b->instances[i];
+        put(out, l->node_at[o->root] / 4, 4);
+        put(out, o->first_vertex, 4);
+        put(out, 0, 4);
+        for (int k = 0; k < 9; k++) {
+            put(out, (uint16_t)(k < 6 ? o->region[k / 3][k % 3] : o->centre[k % 3]), 2);
+        }
+        put(out, o->radius, 2);
+    }
 }
 
 uint8_t *builder_finish(const struct builder *b, uint32_t root, uint32_t *size)

@@ -16,13 +16,14 @@ enum {
     BUILDER_CORNERS = 32768,
     BUILDER_NODES = 4096,
     BUILDER_ITEMS = 16384,
-    BUILDER_COLOURS = 64
+    BUILDER_COLOURS = 64,
+    BUILDER_INSTANCES = 8
 };
 
-/* An item before its place is known: OW_ITEM_FACE, OW_ITEM_REVERSE or OW_ITEM_NODE. */
+/* An item before its place is known: its kind is one of OW_ITEM_... */
 struct built_item {
     uint32_t kind;
-    uint32_t number; /* of the polygon or node */
+    uint32_t number; /* of the polygon, node or instance */
     uint32_t next;   /* in the node's list, from 1; 0: the last */
 };
 
@@ -45,6 +46,14 @@ struct built_polygon {
     uint16_t marks[16];
 };
 
+struct built_instance {
+    uint32_t root; /* node */
+    uint32_t first_vertex;
+    int16_t region[2][3];
+    int16_t centre[3];
+    uint16_t radius;
+};
+
 struct builder {
     uint32_t flags; /* OW_TREE_... */
     int16_t vertices[BUILDER_VERTICES][3];
@@ -59,6 +68,8 @@ struct builder {
     uint32_t item_count;
     uint32_t colours[BUILDER_COLOURS];
     uint32_t colour_count;
+    struct built_instance instances[BUILDER_INSTANCES];
+    uint32_t instance_count;
     double origin[3];
     double step;
 };
@@ -88,6 +99,15 @@ void builder_add(struct builder *b, uint32_t node, uint32_t kind, uint32_t numbe
 
 /* Sets a switch's child: side 0 front, 1 back. */
 void builder_child(struct builder *b, uint32_t node, uint32_t side, uint32_t kind, uint32_t number);
+
+/*
+ * The vertices added from now on are an instance's. Items must name instances in
+ * the order in which they were begun. Returns its number.
+ */
+uint32_t builder_begin_instance(struct builder *b);
+
+/* Ends it: its root, and its region; its sphere holds its vertices. */
+void builder_end_instance(struct builder *b, uint32_t root, const int region[2][3]);
 
 /* Gives a node bounds that hold no matter what lies in it. */
 void builder_bound(struct builder *b, uint32_t node);

@@ -405,15 +405,48 @@ static void test_plane_words(void **state)
     import_free(&model);
 }
 
+/* A tree may be as large as its limits; one that is larger says which, and what to do. */
+static void test_limits(void **state)
+{
+    (void)state;
+    static const char *const words[] = { "bytes or more", "levels", "vertices",
+                                         "faces in one plane" };
+    struct model model = { 0 };
+    struct compile_options options = models_options();
+    struct compile_stats stats;
+    struct ow_tree tree;
+    struct blob blob;
+    make_two_boxes(&model);
+    compile_and_open(&blob, &stats, &tree, &model, &options);
+    const uint32_t enough[4] = { blob.size, tree.depth, tree.vertex_count, tree.face_count };
+    blob_free(&blob);
+    for (int i = 0; i < 5; i++) {
+        uint32_t most[4];
+        struct problem problem;
+        for (int k = 0; k < 4; k++) {
+            most[k] = k != i ? enough[k] : k == 3 ? 1 : enough[k] - 1;
+        }
+        struct blob_limits limits = { most[0], most[1], most[2], most[3] };
+        options.limits = &limits;
+        assert_int_equal(compile_model(&blob, &stats, &model, &options, &problem), i == 4);
+        if (i < 4) {
+            assert_non_null(strstr(problem.text, words[i]));
+            assert_non_null(strstr(problem.text, "can be: "));
+        }
+        blob_free(&blob);
+    }
+    import_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts),       cmocka_unit_test(test_coordinates),
-        cmocka_unit_test(test_seeds),        cmocka_unit_test(test_two_sides),
-        cmocka_unit_test(test_single),       cmocka_unit_test(test_face_normals),
-        cmocka_unit_test(test_marks),        cmocka_unit_test(test_vertex_normals),
-        cmocka_unit_test(test_wide_corners), cmocka_unit_test(test_plane_words),
-        cmocka_unit_test(test_long_leaf),
+        cmocka_unit_test(test_counts),         cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_coordinates),    cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_two_sides),      cmocka_unit_test(test_single),
+        cmocka_unit_test(test_face_normals),   cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_vertex_normals), cmocka_unit_test(test_wide_corners),
+        cmocka_unit_test(test_plane_words),    cmocka_unit_test(test_long_leaf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

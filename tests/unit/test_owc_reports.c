@@ -66,10 +66,13 @@ static void cuts_are_explained(void **state)
     options.explain = tmpfile();
     models_compile(&blob, &stats, &model, &options);
     read_back(options.explain);
-    assert_string_equal(text, "polygon 2 split by the plane of polygon 1\n"
-                              "polygon 3 split by the plane of polygon 1\n"
-                              "polygon 3 split by the plane of polygon 2\n"
-                              "polygon 3 split by the plane of polygon 2\n");
+    assert_string_equal(
+        text, "polygon 2 split by the plane of polygon 1, from 0,0.0999786,2 to 0,0.0999786,-2\n"
+              "polygon 3 split by the plane of polygon 1, from 0,-2,0.200018 to 0,2,0.200018\n"
+              "polygon 3 split by the plane of polygon 2, from 0,0.0999786,0.200018 to "
+              "-2,0.0999786,0.200018\n"
+              "polygon 3 split by the plane of polygon 2, from 2,0.0999786,0.200018 to "
+              "0,0.0999786,0.200018\n");
     blob_free(&blob);
     assert_true(user_planes_read(&planes, "0,1,0,1", &problem));
     options.method = METHOD_BSP;
@@ -79,8 +82,16 @@ static void cuts_are_explained(void **state)
     models_compile(&blob, &stats, &model, &options);
     read_back(options.explain);
     assert_int_equal(count_of("\n"), stats.splits);
-    assert_int_equal(count_of(" by a dividing plane\n"), 2); /* the squares that stand across it */
-    assert_int_equal(count_of("polygon 1 split by a dividing plane\n"), 1);
+    assert_int_equal(count_of(" by the dividing plane 0,1,0,1,"), 2); /* the squares across it */
+    assert_int_equal(count_of("polygon 1 split by the dividing plane"), 1);
+    blob_free(&blob);
+    options = models_options();
+    options.method = METHOD_OBSTRUCTION;
+    options.explain = tmpfile();
+    models_compile(&blob, &stats, &model, &options);
+    read_back(options.explain);
+    assert_true(stats.splits > 0);
+    assert_int_equal(count_of("\n"), stats.splits);
     blob_free(&blob);
     user_planes_free(&planes);
     import_free(&model);

@@ -11,6 +11,8 @@
 
 enum { CHORD_SHARE_BITS = 40 };
 
+#define MOST_OFF_EDGE 1.0 /* lattice steps between a cut edge and a vertex on it */
+
 /* ---- beginning ---- */
 
 static uint32_t add_vertex(struct arrangement *a, struct vertex vertex, const double at[3])
@@ -35,29 +37,18 @@ static int compare_records(const void *left, const void *right)
 
 static void list_records(struct arrangement *a, const struct mesh *mesh)
 {
-    a->record_first = xalloc_zero((size_t)mesh->point_count + 2, sizeof *a->record_first);
-    uint32_t *first = a->record_first + 1;
-    size_t all = 0;
-    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
-            first[mesh->corners[mesh->polygons[i].first + k] + 1]++;
-        }
-        all += mesh->polygons[i].count;
-    }
-    for (uint32_t i = 0; i < mesh->point_count; i++) {
-        first[i + 1] += first[i];
-    }
-    a->records = xalloc(all, sizeof *a->records);
-    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
-            uint32_t point = mesh->corners[mesh->polygons[i].first + k];
-            a->records[first[point]++] = mesh->polygons[i].record;
-        }
+    struct mesh_around around;
+    mesh_around_find(&around, mesh);
+    a->record_first = around.first;
+    a->records = xalloc(around.first[mesh->point_count], sizeof *a->records);
+    for (size_t i = 0; i < around.first[mesh->point_count]; i++) {
+        a->records[i] = mesh->polygons[around.all[i].polygon].record;
     }
     for (uint32_t i = 0; i < mesh->point_count; i++) {
         qsort(a->records + a->record_first[i], a->record_first[i + 1] - a->record_first[i],
               sizeof *a->records, compare_records);
     }
+    free(around.all);
 }
 
 void arrangement_begin(struct arrangement *a, const struct mesh *mesh, const struct planes *planes)
@@ -190,7 +181,29 @@ static bool place_on_segment(const struct arrangement *a, const struct line *lin
     return true;
 }
 
-/* False if the planes do not meet in a point, or not near the cut edge from u to v. */
+/* How far a point lies from the segment between two vertices, squared. */
+static double off_segment_squared(const struct arrangement *a, uint32_t u, uint32_t v,
+                                  const double at[3])
+{
+    double along = 0;
+    double off = 0;
+    double length = distance_squared(a, u, v);
+    for (int k = 0; k < 3; k++) {
+        along += (at[k] - a->at[u][k]) * (a->at[v][k] - a->at[u][k]);
+    }
+    double t = length > 0 ? fmax(0, fmin(1, along / length)) : 0;
+    for (int k = 0; k < 3; k++) {
+        double way = at[k] - a->at[u][k] - t * (a->at[v][k] - a->at[u][k]);
+        off += way * way;
+    }
+    return off;
+}
+
+/*
+ * False if the planes do not meet in a point, or not near the cut edge from u
+ * to v. (An end may be on the cutter only within the tolerance: where cutter and
+ * carrier are nearly parallel, their line is then far beside the edge.)
+ */
 static bool place_on_chord(const struct arrangement *a, const struct line *line,
                            const struct plane *plane, uint32_t u, uint32_t v, struct vertex *vertex,
                            double at[3])
@@ -202,17 +215,14 @@ static bool place_on_chord(const struct arrangement *a, const struct line *line,
     }
     for (int k = 0; k < 3; k++) {
         wide rounded = wide_round_quotient(meeting.x[k], meeting.w);
-        int p = a->vertices[u].lattice[k];
-        int q = a->vertices[v].lattice[k];
-        if (rounded < (p < q ? p : q) - 1 || rounded > (p > q ? p : q) + 1 ||
-            rounded < -OW_LATTICE_MAX || rounded > OW_LATTICE_MAX) {
+        if (rounded < -OW_LATTICE_MAX || rounded > OW_LATTICE_MAX) {
             return false;
         }
         vertex->lattice[k] = (int16_t)rounded;
         at[k] = (double)meeting.x[k] / (double)meeting.w;
     }
     vertex->kind = VERTEX_MEETING;
-    return true;
+    return off_segment_squared(a, u, v, at) <= MOST_OFF_EDGE * MOST_OFF_EDGE;
 }
 
 /* By the heights of u and v, rounded, between the two. */

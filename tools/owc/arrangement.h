@@ -63,9 +63,9 @@ struct arrangement {
     struct crossing *crossings;
     size_t crossing_count;
     size_t crossing_capacity;
-    struct map64 segments;  /* lines by their two points */
-    struct map64 cuts;      /* vertices by line and plane */
-    uint32_t *record_first; /* planes of the polygons at each point of the mesh */
+    struct map64 segments; /* lines by their two points */
+    struct map64 cuts;     /* vertices by line and plane */
+    size_t *record_first;  /* planes of the polygons at each point of the mesh */
     uint32_t *records;
     uint32_t point_count;
     uint32_t rounded; /* vertices of that kind */

@@ -69,6 +69,22 @@ static uint32_t head_bytes(const struct layout *l, const struct tree_node *node)
     return bytes + (blob_is_bounded(l->parts->tree, node) ? OW_NODE_BOUNDS_BYTES : 0u);
 }
 
+static const struct blob_limits format_limits = { OW_MAX_BLOB_BYTES, OW_MAX_DEPTH, OW_MAX_VERTICES,
+                                                  OW_NODE_MAX_ITEMS };
+
+static const struct blob_limits *limits_of(const struct layout *l)
+{
+    return l->parts->limits != NULL ? l->parts->limits : &format_limits;
+}
+
+/* What is too much, and what may help. */
+static bool too_large(struct problem *problem, uint64_t count, const char *what, uint32_t most,
+                      const char *help)
+{
+    return problem_set(problem, 0, "the tree has %llu %s, at most %u can be: %s",
+                       (unsigned long long)count, what, most, help);
+}
+
 static void meet_node(struct layout *l, uint32_t node, uint32_t above)
 {
     l->switches_above[l->node_count] = above + (l->parts->tree->nodes[node].plane != MESH_NONE);
@@ -111,9 +127,9 @@ static bool lay_out_nodes(struct layout *l, struct problem *problem)
             l->depth++;
             level_end = l->node_count;
         }
-        if (items > OW_NODE_MAX_ITEMS) {
-            return problem_set(problem, 0, "%u faces in one plane, the format allows %d", items,
-                               OW_NODE_MAX_ITEMS);
+        if (items > limits_of(l)->node_items) {
+            return too_large(problem, items, "faces in one plane", limits_of(l)->node_items,
+                             "make the model of fewer polygons, or try --merge");
         }
         l->node_bytes += head_bytes(l, node) + 4ull * items;
         if (node->plane != MESH_NONE) {
@@ -126,9 +142,9 @@ static bool lay_out_nodes(struct layout *l, struct problem *problem)
         }
         l->blob->switch_depth = above > l->blob->switch_depth ? above : l->blob->switch_depth;
     }
-    if (l->depth > OW_MAX_DEPTH) {
-        return problem_set(problem, 0, "the tree has %u levels, the format allows %d", l->depth,
-                           OW_MAX_DEPTH);
+    if (l->depth > limits_of(l)->levels) {
+        return too_large(problem, l->depth, "levels", limits_of(l)->levels,
+                         "try --method obstruction, or --method bsp with another --seed");
     }
     return true;
 }
@@ -204,9 +220,9 @@ static bool number_vertices(struct layout *l, struct problem *problem)
     }
     map64_free(&maps.points);
     map64_free(&maps.normals);
-    if (l->vertex_count > OW_MAX_VERTICES) {
-        return problem_set(problem, 0, "the tree has %u vertices, the format allows %d",
-                           l->vertex_count, OW_MAX_VERTICES);
+    if (l->vertex_count > limits_of(l)->vertices) {
+        return too_large(problem, l->vertex_count, "vertices", limits_of(l)->vertices,
+                         "make the model of fewer polygons, or try --method obstruction");
     }
     return true;
 }
@@ -514,9 +530,9 @@ static void put_crc(struct layout *l)
 static bool put_all(struct layout *l, struct problem *problem)
 {
     struct sections sections = find_sections(l);
-    if (sections.at[6] > OW_MAX_BLOB_BYTES) {
-        return problem_set(problem, 0, "the tree needs %llu bytes or more, the format allows %d",
-                           (unsigned long long)sections.at[6], OW_MAX_BLOB_BYTES);
+    if (sections.at[6] > limits_of(l)->bytes) {
+        return too_large(problem, sections.at[6], "bytes or more", limits_of(l)->bytes,
+                         "make the model of fewer polygons, or try --method obstruction");
     }
     l->blob->size = (uint32_t)sections.at[6];
     l->blob->bytes = xalloc_zero(l->blob->size, 1); /* zero: the padding */

@@ -14,6 +14,14 @@
 #include "repair.h"
 #include "tree.h"
 
+/* How large a tree may be. */
+struct blob_limits {
+    uint32_t bytes;
+    uint32_t levels;
+    uint32_t vertices;
+    uint32_t node_items; /* in one node */
+};
+
 struct blob_parts {
     const struct mesh *mesh;
     const struct planes *planes;
@@ -24,6 +32,7 @@ struct blob_parts {
     const uint32_t *colours;
     uint32_t colour_count;
     uint32_t tolerance_q8;
+    const struct blob_limits *limits; /* NULL: the format's */
     bool two_sided;
     bool switch_only;
     bool keep_ids;
@@ -39,7 +48,7 @@ struct blob {
     uint32_t switch_depth; /* most switches on a path */
 };
 
-/* False: the tree is larger than the format allows. Free the blob in either case. */
+/* False: the tree is larger than the limits. Free the blob in either case. */
 bool blob_write(struct blob *blob, const struct blob_parts *parts, struct problem *problem);
 void blob_free(struct blob *blob);
 

@@ -9,6 +9,7 @@
 #include "clean.h"
 #include "explain.h"
 #include "insert_edges.h"
+#include "merge.h"
 #include "ow_tree.h"
 #include "normals.h"
 #include "pieces.h"
@@ -29,6 +30,7 @@ struct compiler {
     struct repaired repaired;
     uint32_t tree_pieces; /* pieces there were when the tree was built */
     uint32_t splits;
+    uint32_t merged;
     bool two_sided;
 };
 
@@ -41,6 +43,7 @@ static void build_tree(struct compiler *c)
                                  .candidates = options->candidates,
                                  .conflict_weight = options->conflict_weight,
                                  .seed = options->seed,
+                                 .threads = options->threads,
                                  .tolerance_q8 = options->tolerance_q8,
                                  .dividing = options->dividing,
                                  .dividing_axis = options->dividing_axis,
@@ -51,7 +54,7 @@ static void build_tree(struct compiler *c)
                    &progress);
     progress_end(&progress);
     if (options->explain != NULL) {
-        explain_cuts(options->explain, &c->mesh, &c->pieces, c->pieces.splits, c->planes.count);
+        explain_cuts(options->explain, &c->mesh, &c->arrangement, &c->pieces, c->pieces.splits);
     }
 }
 
@@ -106,6 +109,7 @@ static bool write_checked(struct compiler *c, struct blob *blob, const struct mo
                                 .colours = model->colours,
                                 .colour_count = (uint32_t)model->colour_count,
                                 .tolerance_q8 = c->options->tolerance_q8,
+                                .limits = c->options->limits,
                                 .two_sided = c->two_sided,
                                 .switch_only = c->options->method != METHOD_OBSTRUCTION &&
                                                tree_is_switch_only(&c->tree),
@@ -133,6 +137,7 @@ static void fill_stats(const struct compiler *c, const struct model *model,
         .lines_dropped = model->lines_dropped,
         .planes = c->planes.count,
         .shared_planes = c->planes.shared,
+        .merged = c->merged,
         .splits = c->splits,
         .vanished = c->repaired.vanished,
         .inserted = c->repaired.inserted,
@@ -183,6 +188,7 @@ static bool run_stages(struct compiler *c, struct blob *blob, struct compile_sta
     c->two_sided =
         c->options->sides == SIDES_TWO || (c->options->sides == SIDES_AUTO && !c->mesh.closed);
     plane_group(&c->planes, &c->mesh, model, plane_tolerance(c->options));
+    c->merged = c->options->merge ? merge_coplanar(&c->mesh) : 0;
     if (c->options->into != NULL) {
         insertion_join(c->options->into, &c->mesh, &c->planes);
     }

@@ -25,15 +25,18 @@ struct compile_options {
     bool dividing_axis;
     struct insertion *into; /* a tree to add to, NULL: none */
     bool check;             /* fill compile_stats.check */
+    bool merge;             /* join coplanar neighbours first */
     bool repair;            /* turn over what looks inwards; implies check */
     FILE *explain;          /* where to say what was split; NULL: nowhere */
     uint64_t seed;
+    uint32_t threads; /* 0: as many as there are processors */
     enum sides sides;
     uint32_t tolerance_q8; /* side tests: lattice steps with 8 fraction bits */
     bool keep_ids;
     bool keep_normals;
-    bool compute_normals; /* instead of the model's own */
-    double crease;        /* degrees; see normals_compute */
+    bool compute_normals;             /* instead of the model's own */
+    double crease;                    /* degrees; see normals_compute */
+    const struct blob_limits *limits; /* of the tree; NULL: the format's */
     bool progress;
 };
 
@@ -48,6 +51,7 @@ struct compile_stats {
     uint64_t lines_dropped;
     uint32_t planes;
     uint32_t shared_planes;
+    uint32_t merged; /* polygons that were joined to others */
     uint32_t splits;
     uint32_t vanished;
     uint32_t inserted;

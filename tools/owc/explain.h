@@ -5,15 +5,17 @@
 
 #include <stdio.h>
 
+#include "arrangement.h"
 #include "mesh.h"
 #include "pieces.h"
 
 /*
- * One line for each of the first cut_count cuts: the polygon that was split, and
- * the polygon whose plane it was (of several in that plane the first in the
- * file), or that it was a dividing plane. plane_count: planes there are.
+ * One line for each of the first cut_count cuts: the polygon that was split, what
+ * split it, and from where to where. That is the polygon whose plane it was (of
+ * several in that plane the first in the file), or the plane a,b,c,d with
+ * ax + by + cz + d = 0. All in model units.
  */
-void explain_cuts(FILE *out, const struct mesh *mesh, const struct pieces *pieces,
-                  uint32_t cut_count, uint32_t plane_count);
+void explain_cuts(FILE *out, const struct mesh *mesh, const struct arrangement *arrangement,
+                  const struct pieces *pieces, uint32_t cut_count);
 
 #endif

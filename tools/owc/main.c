@@ -11,9 +11,12 @@
 #include "info.h"
 #include "locate_print.h"
 #include "ow_blob.h"
+#include "ow_view.h"
+#include "planes.h"
 #include "plot.h"
 #include "progress.h"
 #include "stats.h"
+#include "workers.h"
 #include "tools/common/fail.h"
 #include "tools/common/options.h"
 #include "tools/common/outfile.h"
@@ -35,6 +38,7 @@ struct command {
     const char *planes_file;
     const char *plot;
     double locate[3];
+    uint32_t planes[2]; /* pixels */
     double conflict_weight;
     int method;
     int select;
@@ -43,11 +47,14 @@ struct command {
     double crease;
     uint64_t candidates;
     uint64_t seed;
+    uint64_t threads;
     double tolerance;
     int dividing;
     bool repair;
+    bool merge;
     bool explain;
     bool locate_given;
+    bool planes_given;
     bool weight_given;
     bool strict;
     bool keep_ids;
@@ -67,6 +74,9 @@ static const char notes[] =
     "--dividing axis, planes along the axes are found at gaps. Both divide before polygons do.\n"
     "--insert adds polygons one after the other to a tree of --method bsp or online, with the\n"
     "tolerance, sides and kinds of records that the tree has.\n"
+    "--merge joins neighbours of one plane and colour into convex polygons; each has the number "
+    "of\n"
+    "its first one in the file, and edges inside are not drawn by --shade lines.\n"
     "--locate says in which convex region of a tree of switches a point lies.\n"
     "Without --method, an option of bsp alone chooses bsp, all else obstruction. The default\n"
     "tolerance of obstruction is 0.0005, that of the others 0.\n";
@@ -96,6 +106,9 @@ static void check_bsp_usage(const struct option_table *table, const struct comma
     }
     if (!bsp && (c->planes_file != NULL || c->dividing != 0)) {
         options_wrong(table, "dividing planes go with --method bsp");
+    }
+    if (c->merge && c->insert != NULL) {
+        options_wrong(table, "--merge does not go with --insert");
     }
 }
 
@@ -160,16 +173,23 @@ static void parse(struct command *c, int argc, char **argv)
         { "sides", 0, OPTION_CHOICE, &c->sides, NULL, "auto: one if the model is closed",
           .choices = sides },
         { "seed", 0, OPTION_UNSIGNED, &c->seed, "N", "of random choices", .choices = NULL },
+        { "threads", 0, OPTION_UNSIGNED, &c->threads, "N",
+          "threads at work; 0: one for each processor", .max = WORKERS_MOST },
         { "keep-ids", 0, OPTION_FLAG, &c->keep_ids, NULL, "keep the source polygons' numbers",
           .choices = NULL },
         { "normals", 0, OPTION_CHOICE, &c->normals, NULL, "vertex normals, for smooth shading",
           .choices = normals },
         { "crease", 0, OPTION_DOUBLE, &c->crease, "DEG",
           "--normals compute: edges that turn by more stay sharp", .min = 0, .max = 180 },
+        { "planes", 0, OPTION_SIZE, c->planes, "WxH",
+          "write the tree as the bit planes of a frame buffer, a PGM", .max = OW_SCREEN_MAX,
+          .given = &c->planes_given, .no_default = true },
         { "stats", 0, OPTION_STRING, &c->stats, "FILE", "write statistics as JSON",
           .choices = NULL },
         { "plot", 0, OPTION_STRING, &c->plot, "FILE.svg", "draw the tree", .choices = NULL },
         { "explain", 0, OPTION_FLAG, &c->explain, NULL, "print what was split by what",
+          .choices = NULL },
+        { "merge", 0, OPTION_FLAG, &c->merge, NULL, "join coplanar neighbours first",
           .choices = NULL },
         { "repair", 0, OPTION_FLAG, &c->repair, NULL, "turn closed parts that look inwards",
           .choices = NULL },
@@ -230,7 +250,11 @@ static void write_files(const struct command *c, const struct blob *blob,
     struct outfile *outs[3];
     size_t count = 0;
     outs[count++] = outfile_open(c->output);
-    fwrite(blob->bytes, 1, blob->size, outfile_stream(outs[0]));
+    if (c->planes_given) {
+        planes_write(outfile_stream(outs[0]), blob, c->planes);
+    } else {
+        fwrite(blob->bytes, 1, blob->size, outfile_stream(outs[0]));
+    }
     if (c->stats != NULL) {
         outs[count] = outfile_open(c->stats);
         stats_write(outs[count++], blob, stats, seconds);
@@ -261,6 +285,9 @@ static void compile(const struct command *c, const char *name, struct model *mod
                   "tree with --sides two");
     }
     warn_about(name, model);
+    if (c->planes_given) {
+        planes_check(&blob, c->planes, name);
+    }
     if (explained != NULL) {
         outfile_commit(explained);
     }
@@ -283,6 +310,7 @@ static void compile_new(const struct command *c)
         .dividing = c->planes_file != NULL ? &planes : NULL,
         .dividing_axis = c->dividing == 1,
         .seed = c->seed,
+        .threads = (uint32_t)c->threads,
         .sides = (enum sides)c->sides,
         .tolerance_q8 = tolerance_q8(c),
         .keep_ids = c->keep_ids,
@@ -291,6 +319,7 @@ static void compile_new(const struct command *c)
         .crease = c->crease,
         .check = true,
         .repair = c->repair,
+        .merge = c->merge,
         .progress = true,
     };
     if (c->planes_file != NULL && !user_planes_read_file(&planes, c->planes_file, &problem)) {

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/common/xalloc.h"
+
 void mesh_discard(struct mesh *mesh)
 {
     free(mesh->points);
@@ -14,6 +16,36 @@ void mesh_discard(struct mesh *mesh)
     free(mesh->normals);
     free(mesh->sources);
     memset(mesh, 0, sizeof *mesh);
+}
+
+void mesh_around_find(struct mesh_around *around, const struct mesh *mesh)
+{
+    size_t *first = xalloc_zero((size_t)mesh->point_count + 2, sizeof *first);
+    size_t *next = first + 1; /* counts, then where a list begins, which moves on to its end */
+    size_t all = 0;
+    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
+        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
+            next[mesh->corners[mesh->polygons[i].first + k] + 1]++;
+        }
+        all += mesh->polygons[i].count;
+    }
+    for (uint32_t i = 0; i < mesh->point_count; i++) {
+        next[i + 1] += next[i];
+    }
+    *around = (struct mesh_around){ first, xalloc(all, sizeof *around->all) };
+    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
+        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
+            uint32_t point = mesh->corners[mesh->polygons[i].first + k];
+            around->all[next[point]++] = (struct mesh_use){ i, k };
+        }
+    }
+}
+
+void mesh_around_free(struct mesh_around *around)
+{
+    free(around->first);
+    free(around->all);
+    *around = (struct mesh_around){ 0 };
 }
 
 void mesh_area(const int16_t (*points)[3], const uint32_t *corners, uint32_t count, int64_t area[3])

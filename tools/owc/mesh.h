@@ -43,7 +43,22 @@ struct mesh {
     uint32_t repeated_dropped;   /* the same corners as a later polygon */
 };
 
+/* A polygon's corner at a point. */
+struct mesh_use {
+    uint32_t polygon;
+    uint32_t corner; /* its place among the polygon's corners */
+};
+
+/* The polygons around each point: those of point p are all[first[p]] .. all[first[p + 1] - 1]. */
+struct mesh_around {
+    size_t *first;
+    struct mesh_use *all; /* by polygon */
+};
+
 void mesh_discard(struct mesh *mesh);
+
+void mesh_around_find(struct mesh_around *around, const struct mesh *mesh);
+void mesh_around_free(struct mesh_around *around);
 
 /* The polygon's area vector times 2 (Newell): exact, since lattice coordinates are small. */
 void mesh_area(const int16_t (*points)[3], const uint32_t *corners, uint32_t count,

@@ -12,16 +12,9 @@
 
 #include "tools/common/xalloc.h"
 
-/* A polygon's corner at a point. */
-struct use {
-    uint32_t polygon;
-    double angle; /* radians */
-};
-
-/* uses[first[p]] .. uses[first[p + 1] - 1] are the corners at point p. */
-struct around {
-    size_t *first;
-    struct use *uses;
+struct shader {
+    struct mesh_around around;
+    double *angles;     /* of each use, radians */
     double (*units)[3]; /* of each polygon */
 };
 
@@ -57,51 +50,42 @@ static double angle_at(const struct mesh *mesh, const struct mesh_polygon *polyg
     return acos(cosine > 1 ? 1 : cosine < -1 ? -1 : cosine);
 }
 
-static void find_units(struct around *around, const struct mesh *mesh)
+static void find_units(struct shader *s, const struct mesh *mesh)
 {
-    around->units = xalloc_zero(mesh->polygon_count, sizeof *around->units);
+    s->units = xalloc_zero(mesh->polygon_count, sizeof *s->units);
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
         const struct mesh_polygon *polygon = &mesh->polygons[p];
         int64_t area[3];
         mesh_area((const int16_t(*)[3])mesh->points, mesh->corners + polygon->first, polygon->count,
                   area);
         for (int k = 0; k < 3; k++) {
-            around->units[p][k] = (double)area[k];
+            s->units[p][k] = (double)area[k];
         }
-        make_unit(around->units[p]);
+        make_unit(s->units[p]);
     }
 }
 
-static void find_uses(struct around *around, const struct mesh *mesh)
+static void find_angles(struct shader *s, const struct mesh *mesh)
 {
-    around->first = xalloc_zero((size_t)mesh->point_count + 2, sizeof *around->first);
-    around->uses = xalloc_zero(mesh->corner_count + 1, sizeof *around->uses);
-    size_t *next = around->first + 1; /* counts, then ends, while the list is filled */
-    for (size_t i = 0; i < mesh->corner_count; i++) {
-        next[mesh->corners[i] + 1]++;
-    }
-    for (uint32_t p = 0; p < mesh->point_count; p++) {
-        next[p + 1] += next[p];
-    }
-    for (uint32_t p = 0; p < mesh->polygon_count; p++) {
-        const struct mesh_polygon *polygon = &mesh->polygons[p];
-        for (uint32_t i = 0; i < polygon->count; i++) {
-            uint32_t point = mesh->corners[polygon->first + i];
-            around->uses[next[point]++] = (struct use){ p, angle_at(mesh, polygon, i) };
-        }
+    mesh_around_find(&s->around, mesh);
+    size_t count = s->around.first[mesh->point_count];
+    s->angles = xalloc(count, sizeof *s->angles);
+    for (size_t i = 0; i < count; i++) {
+        const struct mesh_use *use = &s->around.all[i];
+        s->angles[i] = angle_at(mesh, &mesh->polygons[use->polygon], use->corner);
     }
 }
 
-static void sum_normals(const struct around *around, uint32_t polygon, uint32_t point,
+static void sum_normals(const struct shader *s, uint32_t polygon, uint32_t point,
                         double least_cosine, float normal[3])
 {
     double sum[3] = { 0, 0, 0 };
-    for (size_t u = around->first[point]; u < around->first[point + 1]; u++) {
-        const struct use *use = &around->uses[u];
-        const double *unit = around->units[use->polygon];
-        if (use->polygon == polygon || dot(around->units[polygon], unit) >= least_cosine) {
+    for (size_t u = s->around.first[point]; u < s->around.first[point + 1]; u++) {
+        uint32_t other = s->around.all[u].polygon;
+        const double *unit = s->units[other];
+        if (other == polygon || dot(s->units[polygon], unit) >= least_cosine) {
             for (int k = 0; k < 3; k++) {
-                sum[k] += use->angle * unit[k];
+                sum[k] += s->angles[u] * unit[k];
             }
         }
     }
@@ -113,9 +97,9 @@ static void sum_normals(const struct around *around, uint32_t polygon, uint32_t 
 
 void normals_compute(struct mesh *mesh, double crease)
 {
-    struct around around;
-    find_units(&around, mesh);
-    find_uses(&around, mesh);
+    struct shader shader;
+    find_units(&shader, mesh);
+    find_angles(&shader, mesh);
     /* A hair wider, so that an angle given exactly is within. */
     double least_cosine = cos(crease * 3.14159265358979323846 / 180) - 1e-9;
     free(mesh->normals);
@@ -124,10 +108,10 @@ void normals_compute(struct mesh *mesh, double crease)
         const struct mesh_polygon *polygon = &mesh->polygons[p];
         for (uint32_t i = 0; i < polygon->count; i++) {
             size_t at = polygon->first + i;
-            sum_normals(&around, p, mesh->corners[at], least_cosine, mesh->normals[at]);
+            sum_normals(&shader, p, mesh->corners[at], least_cosine, mesh->normals[at]);
         }
     }
-    free(around.units);
-    free(around.uses);
-    free(around.first);
+    mesh_around_free(&shader.around);
+    free(shader.angles);
+    free(shader.units);
 }

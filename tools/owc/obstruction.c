@@ -2,45 +2,63 @@
 /*
  * Building the obstruction tree. A list of faces becomes a sequence of its
  * components; a component of several faces becomes a switch, whose two halves
- * are lists again. The lists that wait stand on a stack. Each half is shorter
- * than the component that it came from, so this ends.
+ * are lists again. Each half is shorter than the component that it came from,
+ * so this ends. Round by round, threads think about all lists that wait; then
+ * what they found is carried out in the lists' order, so that the tree is the
+ * same for any number of threads.
  */
 #include "obstruction.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "map64.h"
-#include "obstruction_chunks.h"
-#include "obstruction_components.h"
 #include "obstruction_cuts.h"
-#include "obstruction_faces.h"
-#include "obstruction_plane.h"
-#include "obstruction_whole.h"
+#include "obstruction_think.h"
 #include "ow_blob.h"
-#include "random.h"
 #include "tools/common/xalloc.h"
+#include "workers.h"
 
-/* Faces of a model up to which no effort is spared; larger ones get less. */
-enum { SMALL_MODEL = 20000 };
+/* Pieces up to which no effort is spared; from the other number on there is little. */
+enum { SMALL_MODEL = 20000, LARGE_MODEL = 200000 };
 
 static const struct obstruction_effort great_effort = { .own = 64,
-                                                        .edges = 400,
+                                                        .edges = 1600,
                                                         .directions = 13,
                                                         .sample = 1024,
-                                                        .climbs = 150,
-                                                        .finalists = 8,
-                                                        .ahead = 2000,
-                                                        .balance = 0.1 };
+                                                        .climbers = 100,
+                                                        .climbs = 60,
+                                                        .finalists = 100,
+                                                        .ahead = 100,
+                                                        .looks = 16,
+                                                        .price = 0.5 };
 static const struct obstruction_effort less_effort = { .own = 32,
-                                                       .edges = 64,
+                                                       .edges = 400,
                                                        .directions = 7,
-                                                       .sample = 256,
+                                                       .sample = 1024,
+                                                       .climbers = 24,
                                                        .climbs = 60,
-                                                       .finalists = 4,
-                                                       .ahead = 500,
-                                                       .balance = 0.1 };
+                                                       .finalists = 24,
+                                                       .ahead = 100,
+                                                       .looks = 8,
+                                                       .price = 0.5 };
+static const struct obstruction_effort little_effort = { .own = 16,
+                                                         .edges = 64,
+                                                         .directions = 5,
+                                                         .sample = 512,
+                                                         .climbers = 4,
+                                                         .climbs = 40,
+                                                         .finalists = 8,
+                                                         .ahead = 50,
+                                                         .looks = 4,
+                                                         .price = 0.5 };
+
+static const struct obstruction_effort *effort_for(uint32_t pieces)
+{
+    return pieces <= SMALL_MODEL   ? &great_effort
+           : pieces <= LARGE_MODEL ? &less_effort
+                                   : &little_effort;
+}
 
 /* Where a subtree's item goes. */
 enum slot { SLOT_ROOT, SLOT_FRONT, SLOT_BACK, SLOT_ITEM };
@@ -54,21 +72,21 @@ struct place {
 struct task {
     tree_item *items;
     uint32_t count;
+    uint64_t seed;
     struct place place;
 };
 
 struct builder {
     struct tree *tree;
     struct planes *planes;
-    const struct mesh *mesh;
     struct arrangement *arrangement;
     struct pieces *pieces;
     struct progress *progress;
-    struct obstruction_effort effort;
-    struct random random;
-    double tolerance; /* lattice steps */
+    struct obstruction_world world;
     struct obstruction_cuts cuts;
-    struct task *tasks;
+    struct obstruction_thought *thoughts; /* of the tasks of this round */
+    struct task *round;
+    struct task *tasks; /* of the next one */
     size_t task_count;
     size_t task_capacity;
     uint64_t placed;  /* faces in the tree */
@@ -94,15 +112,20 @@ static void put(struct builder *b, struct place place, tree_item item)
 }
 
 /* Takes over the items. */
-static void push(struct builder *b, tree_item *items, uint32_t count, struct place place)
+static void push(struct builder *b, tree_item *items, uint32_t count, uint64_t seed,
+                 struct place place)
 {
-    if (count == 0) {
+    if (count < 2) {
+        if (count == 1) {
+            put(b, place, items[0]);
+            b->placed++;
+        }
         free(items);
         return;
     }
     items = xresize(items, count, sizeof *items);
     b->tasks = xgrow(b->tasks, &b->task_capacity, b->task_count + 1, sizeof *b->tasks);
-    b->tasks[b->task_count++] = (struct task){ items, count, place };
+    b->tasks[b->task_count++] = (struct task){ items, count, map64_hash(seed), place };
     b->waiting += count;
 }
 
@@ -146,22 +169,22 @@ static void add_coplanar(struct builder *b, uint32_t node, const struct halves *
     free(sorted);
 }
 
-static void put_face(struct builder *b, struct halves *h, const struct obstruction_face *face,
-                     uint32_t plane, uint8_t where)
+static void put_face(struct builder *b, struct halves *h, tree_item face, uint32_t plane,
+                     uint8_t where)
 {
     switch (where) {
     case OBSTRUCTION_ON:
-        h->on[h->on_count++] = face->item;
+        h->on[h->on_count++] = face;
         break;
     case OBSTRUCTION_FRONT:
-        h->front[h->front_count++] = face->item;
+        h->front[h->front_count++] = face;
         break;
     case OBSTRUCTION_BACK:
-        h->back[h->back_count++] = face->item;
+        h->back[h->back_count++] = face;
         break;
     case OBSTRUCTION_ACROSS: {
         tree_item parts[2];
-        obstruction_cut(&b->cuts, b->arrangement, b->pieces, face->item, plane, parts);
+        obstruction_cut(&b->cuts, b->arrangement, b->pieces, face, plane, parts);
         if (parts[0] != OW_ITEM_NONE) {
             h->front[h->front_count++] = parts[0];
         }
@@ -173,166 +196,130 @@ static void put_face(struct builder *b, struct halves *h, const struct obstructi
     }
 }
 
-/* Where each face goes. */
-static uint8_t *find_places(const struct builder *b, struct obstruction_set *set,
-                            const uint32_t *faces, uint32_t count, uint32_t number)
+static void make_switch(struct builder *b, const struct obstruction_entry *entry,
+                        const tree_item *items, uint64_t seed, struct place place)
 {
-    const struct plane *plane = &b->planes->all[number];
-    double length = sqrt(plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
-                         plane->normal[2] * plane->normal[2]);
-    double normal[3] = { plane->normal[0] / length, plane->normal[1] / length,
-                         plane->normal[2] / length };
-    uint8_t *places = xalloc(count, sizeof *places);
-    for (uint32_t i = 0; i < count; i++) {
-        places[i] = (uint8_t)obstruction_place_of(set, &set->faces[faces[i]], number);
-    }
-    obstruction_keep_whole(set, normal, plane->offset / length, faces, count, places);
-    return places;
-}
-
-static void make_switch(struct builder *b, struct obstruction_set *set, const uint32_t *faces,
-                        uint32_t count, struct place place)
-{
-    uint32_t plane = obstruction_choose(set, b->planes, faces, count, &b->effort, &b->random);
+    const struct obstruction_choice *choice = &entry->choice;
+    uint32_t plane = choice->record != MESH_NONE ? choice->record
+                                                 : plane_add(b->planes, choice->n, choice->d, 0);
     uint32_t node = tree_add_node(b->tree, plane);
+    uint32_t count = entry->count;
     struct halves halves = { xalloc(count, sizeof(tree_item)),
                              xalloc(count, sizeof(tree_item)),
                              xalloc(count, sizeof(tree_item)),
                              0,
                              0,
                              0 };
-    uint8_t *places = find_places(b, set, faces, count, plane);
     for (uint32_t i = 0; i < count; i++) {
-        put_face(b, &halves, &set->faces[faces[i]], plane, places[i]);
+        put_face(b, &halves, items[i], plane, entry->places[i]);
     }
-    free(places);
     put(b, place, tree_item_of(OW_ITEM_NODE, node));
     add_coplanar(b, node, &halves);
     free(halves.on);
-    push(b, halves.back, halves.back_count, (struct place){ SLOT_BACK, node });
-    push(b, halves.front, halves.front_count, (struct place){ SLOT_FRONT, node });
+    push(b, halves.front, halves.front_count, seed + 1, (struct place){ SLOT_FRONT, node });
+    push(b, halves.back, halves.back_count, seed + 2, (struct place){ SLOT_BACK, node });
 }
 
 /* ---- sequences ---- */
 
-/* What becomes one item of a sequence: a face, a component, or a chunk of faces. */
-struct entry {
-    uint32_t first; /* of the components' faces */
-    uint32_t count;
-    bool chunk;
-};
-
-static struct entry *add_entry(struct entry *entries, size_t *capacity, uint32_t *count,
-                               struct entry entry)
-{
-    entries = xgrow(entries, capacity, (size_t)*count + 1, sizeof *entries);
-    entries[(*count)++] = entry;
-    return entries;
-}
-
-/* Single faces that follow one another, in chunks if they are many. */
-static struct entry *add_run(struct obstruction_set *set, struct components *c, uint32_t first,
-                             uint32_t length, struct entry *entries, size_t *capacity,
-                             uint32_t *count)
-{
-    if (length < CHUNK_RUN) {
-        for (uint32_t i = first; i < first + length; i++) {
-            entries = add_entry(entries, capacity, count, (struct entry){ i, 1, false });
-        }
-        return entries;
-    }
-    uint32_t *ends = xalloc(length, sizeof *ends);
-    uint32_t chunks = obstruction_chunks(set, c->faces + first, length, ends);
-    for (uint32_t i = 0; i < chunks; i++) {
-        uint32_t begin = i > 0 ? ends[i - 1] : 0;
-        entries = add_entry(entries, capacity, count,
-                            (struct entry){ first + begin, ends[i] - begin, true });
-    }
-    free(ends);
-    return entries;
-}
-
-static struct entry *list_entries(struct obstruction_set *set, struct components *c,
-                                  uint32_t *count)
-{
-    struct entry *entries = NULL;
-    size_t capacity = 0;
-    uint32_t i = 0;
-    *count = 0;
-    while (i < c->count) {
-        uint32_t run = i;
-        while (run < c->count && c->starts[run + 1] - c->starts[run] == 1) {
-            run++;
-        }
-        entries = add_run(set, c, c->starts[i], run - i, entries, &capacity, count);
-        if (run < c->count) {
-            struct entry component = { c->starts[run], c->starts[run + 1] - c->starts[run], false };
-            entries = add_entry(entries, &capacity, count, component);
-            run++;
-        }
-        i = run;
-    }
-    return entries;
-}
-
-static void put_chunk(struct builder *b, const struct obstruction_set *set, const uint32_t *faces,
-                      uint32_t count, struct place place)
+static void put_chunk(struct builder *b, const tree_item *items, uint32_t count, struct place place)
 {
     uint32_t node = tree_add_node(b->tree, MESH_NONE);
     for (uint32_t i = 0; i < count; i++) {
-        tree_add_item(b->tree, node, set->faces[faces[i]].item);
+        tree_add_item(b->tree, node, items[i]);
     }
     put(b, place, tree_item_of(OW_ITEM_NODE, node));
     b->placed += count;
 }
 
-static void make_sequence(struct builder *b, struct obstruction_set *set, struct place place)
+static void put_entry(struct builder *b, const struct obstruction_thought *thought,
+                      const struct obstruction_entry *entry, uint64_t seed, struct place place)
 {
-    struct components c;
-    uint32_t count;
-    components_find(&c, set);
-    if (c.count == 1 && set->count > 1) {
-        make_switch(b, set, c.faces, set->count, place);
-        components_free(&c);
+    const tree_item *items = thought->items + entry->first;
+    switch (entry->kind) {
+    case OBSTRUCTION_FACE:
+        put(b, place, items[0]);
+        b->placed++;
+        break;
+    case OBSTRUCTION_CHUNK:
+        put_chunk(b, items, entry->count, place);
+        break;
+    case OBSTRUCTION_SWITCH:
+        make_switch(b, entry, items, seed + 2 * (uint64_t)entry->first, place);
+        break;
+    }
+}
+
+/* Carries out what was thought about a task. */
+static void build_task(struct builder *b, const struct task *task,
+                       const struct obstruction_thought *thought)
+{
+    if (thought->entry_count == 1) {
+        put_entry(b, thought, &thought->entries[0], task->seed, task->place);
         return;
     }
-    struct entry *entries = list_entries(set, &c, &count);
     uint32_t node = tree_add_node(b->tree, MESH_NONE);
     size_t first = b->tree->item_count;
-    for (uint32_t i = 0; i < count; i++) {
-        tree_add_item(b->tree, node, set->faces[c.faces[entries[i].first]].item);
+    for (uint32_t i = 0; i < thought->entry_count; i++) {
+        tree_add_item(b->tree, node, thought->items[thought->entries[i].first]);
     }
-    put(b, place, tree_item_of(OW_ITEM_NODE, node));
-    for (uint32_t i = 0; i < count; i++) {
-        struct place here = { SLOT_ITEM, first + i };
-        if (entries[i].chunk) {
-            put_chunk(b, set, c.faces + entries[i].first, entries[i].count, here);
-        } else if (entries[i].count > 1) {
-            make_switch(b, set, c.faces + entries[i].first, entries[i].count, here);
-        } else {
-            b->placed++;
-        }
+    put(b, task->place, tree_item_of(OW_ITEM_NODE, node));
+    for (uint32_t i = 0; i < thought->entry_count; i++) {
+        put_entry(b, thought, &thought->entries[i], task->seed,
+                  (struct place){ SLOT_ITEM, first + i });
     }
-    free(entries);
-    components_free(&c);
 }
 
-static void build_task(struct builder *b, const struct task *task)
+/* ---- rounds ---- */
+
+static void show_progress(const struct builder *b)
 {
-    if (task->count == 1) {
-        put(b, task->place, task->items[0]);
-        b->placed++;
-        return;
+    if (b->progress != NULL) {
+        progress_show(b->progress, "building", b->placed, b->placed + b->waiting);
     }
-    struct obstruction_set set;
-    obstruction_set_begin(&set, b->mesh, b->arrangement, b->pieces, b->tolerance, task->items,
-                          task->count);
-    make_sequence(b, &set, task->place);
-    b->tree->relations += set.relations;
-    obstruction_set_free(&set);
 }
 
-static void push_all(struct builder *b, bool two_sided)
+static void think(void *context, uint32_t number, uint32_t thread)
+{
+    struct builder *b = context;
+    const struct task *task = &b->round[number];
+    obstruction_think(&b->thoughts[number], &b->world, task->items, task->count, task->seed,
+                      b->planes->count + thread);
+    if (thread == 0) {
+        show_progress(b);
+    }
+}
+
+/* One round. False: it gave up. */
+static bool build_round(struct builder *b, uint32_t threads, uint64_t most)
+{
+    uint32_t count = (uint32_t)b->task_count;
+    bool fine = true;
+    b->round = b->tasks;
+    b->tasks = NULL;
+    b->task_count = b->task_capacity = 0;
+    b->thoughts = xalloc(count, sizeof *b->thoughts);
+    b->planes->all = xgrow(b->planes->all, &b->planes->capacity, (size_t)b->planes->count + threads,
+                           sizeof *b->planes->all);
+    workers_run(threads, count, think, b);
+    for (uint32_t i = 0; i < count; i++) {
+        struct task *task = &b->round[i];
+        free(task->items);
+        b->waiting -= task->count;
+        b->tree->relations += b->thoughts[i].relations;
+        if (fine) {
+            build_task(b, task, &b->thoughts[i]);
+        }
+        fine = fine && (most == 0 || b->placed + b->waiting <= most);
+        obstruction_thought_free(&b->thoughts[i]);
+        show_progress(b);
+    }
+    free(b->thoughts);
+    free(b->round);
+    return fine;
+}
+
+static void push_all(struct builder *b, bool two_sided, uint64_t seed)
 {
     uint32_t sides = two_sided ? 2 : 1;
     uint32_t count = b->pieces->count * sides;
@@ -342,44 +329,37 @@ static void push_all(struct builder *b, bool two_sided)
             items[i * sides + k] = tree_item_of(k == 0 ? OW_ITEM_FACE : OW_ITEM_REVERSE, i);
         }
     }
-    push(b, items, count, (struct place){ SLOT_ROOT, 0 });
+    push(b, items, count, seed, (struct place){ SLOT_ROOT, 0 });
 }
 
 bool obstruction_build(struct tree *tree, struct planes *planes, const struct mesh *mesh,
                        struct arrangement *arrangement, struct pieces *pieces,
                        const struct obstruction_options *options, struct progress *progress)
 {
+    uint32_t threads = options->threads > 0 ? options->threads : workers_processors();
     struct builder b = { .tree = tree,
                          .planes = planes,
-                         .mesh = mesh,
                          .arrangement = arrangement,
                          .pieces = pieces,
                          .progress = progress,
-                         .effort = pieces->count > SMALL_MODEL ? less_effort : great_effort,
-                         .random = { options->seed },
-                         .tolerance = options->tolerance_q8 / 256.0 };
-    if (options->balance > 0) {
-        b.effort.balance = options->balance;
+                         .world = { mesh, arrangement, pieces, planes,
+                                    options->tolerance_q8 / 256.0, *effort_for(pieces->count) } };
+    if (options->price > 0) {
+        b.world.effort.price = options->price;
     }
     *tree = (struct tree){ .root = OW_ITEM_NONE };
-    push_all(&b, options->two_sided);
+    push_all(&b, options->two_sided, options->seed);
     bool fine = true;
-    while (b.task_count > 0) {
-        struct task task = b.tasks[--b.task_count];
-        b.waiting -= task.count;
-        fine = fine && (options->most == 0 || b.placed + b.waiting <= options->most);
-        if (fine) {
-            build_task(&b, &task);
-        }
-        free(task.items);
-        if (progress != NULL) {
-            progress_show(progress, "building", b.placed, b.placed + b.waiting);
-        }
+    while (fine && b.task_count > 0) {
+        fine = build_round(&b, threads, options->most);
     }
+    for (size_t i = 0; i < b.task_count; i++) {
+        free(b.tasks[i].items);
+    }
+    free(b.tasks);
     if (fine) {
         obstruction_cuts_share(&b.cuts, tree);
     }
     obstruction_cuts_free(&b.cuts);
-    free(b.tasks);
     return fine;
 }

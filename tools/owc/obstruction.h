@@ -21,8 +21,9 @@ struct obstruction_options {
     uint64_t seed;
     uint32_t tolerance_q8; /* of the relation; that of the planes may be less */
     bool two_sided;        /* each piece's back is a face too */
-    double balance;        /* what balance is worth, in cuts a face; 0: the usual */
+    double price;          /* what a switch costs, in cuts; 0: the usual */
     uint64_t most;         /* give up where there would be more faces; 0: never */
+    uint32_t threads;      /* 0: as many as there are processors; the tree is the same */
 };
 
 /*

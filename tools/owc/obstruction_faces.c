@@ -20,8 +20,8 @@ static void set_sphere(const struct obstruction_set *set, struct obstruction_fac
     memcpy(high, points[0], sizeof high);
     for (uint32_t i = 1; i < face->count; i++) {
         for (int k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], points[i][k]);
-            high[k] = fmax(high[k], points[i][k]);
+            low[k] = smaller(low[k], points[i][k]);
+            high[k] = larger(high[k], points[i][k]);
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -34,7 +34,7 @@ static void set_sphere(const struct obstruction_set *set, struct obstruction_fac
             double way = points[i][k] - face->centre[k];
             square += way * way;
         }
-        most = fmax(most, square);
+        most = larger(most, square);
     }
     face->radius = sqrt(most) + OBSTRUCTION_DOUBT;
 }
@@ -51,7 +51,7 @@ static void set_plane(const struct obstruction_set *set, struct obstruction_face
     double tolerance = (double)plane->tolerance / length;
     double reach = (double)plane->reach / length;
     face->on = tolerance - OBSTRUCTION_DOUBT;
-    face->sure = fmax(tolerance, reach) + OBSTRUCTION_DOUBT;
+    face->sure = larger(tolerance, reach) + OBSTRUCTION_DOUBT;
 }
 
 static void set_face(struct obstruction_set *set, struct obstruction_face *face, tree_item item,
@@ -64,6 +64,7 @@ static void set_face(struct obstruction_set *set, struct obstruction_face *face,
     face->plane = piece->record;
     face->polygon = piece->polygon;
     face->sign = set->mesh->polygons[piece->polygon].reversed != reverse ? -1 : 1;
+    face->rough = false;
     face->first = first;
     face->count = piece->count;
     for (uint32_t i = 0; i < piece->count; i++) {
@@ -87,7 +88,7 @@ void obstruction_set_begin(struct obstruction_set *set, const struct mesh *mesh,
                                      .count = count,
                                      .tolerance = tolerance,
                                      .step = step,
-                                     .slack = fmax(step, tolerance / 2) };
+                                     .slack = larger(step, tolerance / 2) };
     for (uint32_t i = 0; i < count; i++) {
         points += pieces->all[tree_item_value(items[i])].count;
     }
@@ -97,6 +98,29 @@ void obstruction_set_begin(struct obstruction_set *set, const struct mesh *mesh,
     for (uint32_t i = 0; i < count; i++) {
         set_face(set, &set->faces[i], items[i], points);
         points += set->faces[i].count;
+    }
+}
+
+void obstruction_set_part(struct obstruction_set *part, const struct obstruction_set *set,
+                          const uint32_t *faces, uint32_t count)
+{
+    size_t points = 0;
+    *part = *set;
+    part->relations = 0;
+    part->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        points += set->faces[faces[i]].count;
+    }
+    part->faces = xalloc(count, sizeof *part->faces);
+    part->points = xalloc(points, sizeof *part->points);
+    points = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        struct obstruction_face *face = &part->faces[i];
+        *face = set->faces[faces[i]];
+        memcpy(part->points + points, set->points + face->first,
+               face->count * sizeof *part->points);
+        face->first = points;
+        points += face->count;
     }
 }
 
@@ -122,8 +146,8 @@ static void range_along(const struct outline *outline, const double way[3], doub
     for (uint32_t i = 0; i < outline->count; i++) {
         const double *p = outline->points[i];
         double t = way[0] * p[0] + way[1] * p[1] + way[2] * p[2];
-        range[0] = fmin(range[0], t);
-        range[1] = fmax(range[1], t);
+        range[0] = smaller(range[0], t);
+        range[1] = larger(range[1], t);
     }
 }
 
@@ -142,7 +166,7 @@ static bool edge_separates(const struct outline *edges, const struct outline *a,
         double rb[2];
         range_along(a, way, ra);
         range_along(b, way, rb);
-        if (fmin(ra[1], rb[1]) - fmax(ra[0], rb[0]) < limit * length) {
+        if (smaller(ra[1], rb[1]) - larger(ra[0], rb[0]) < limit * length) {
             return true;
         }
     }
@@ -161,7 +185,7 @@ static double distance_seen_along(const double normal[3], const double a[3], con
     double way[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
     double along = way[0] * normal[0] + way[1] * normal[1] + way[2] * normal[2];
     double square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2] - along * along;
-    return sqrt(fmax(0, square));
+    return sqrt(larger(0, square));
 }
 
 /* The part of p at least as high as least above normal.x + offset = 0. At most 2 count corners. */
@@ -235,6 +259,9 @@ bool obstruction_overlap(const struct obstruction_set *set, const struct obstruc
 static bool beyond_exactly(const struct obstruction_set *set, const struct obstruction_face *p,
                            uint32_t corner, const struct obstruction_face *q, int way)
 {
+    if (p->rough) {
+        return false;
+    }
     const struct piece *piece = &set->pieces->all[p->piece];
     uint32_t vertex = set->pieces->vertices[piece->first + corner];
     return q->sign * arrangement_side(set->arrangement, q->plane, vertex) == way;
@@ -246,7 +273,7 @@ static bool reaches(const struct obstruction_set *set, const struct obstruction_
 {
     const double(*points)[3] = (const double(*)[3])set->points + p->first;
     bool tolerant = set->tolerance > set->step;
-    double sure = tolerant ? fmax(set->tolerance, q->sure) : q->sure;
+    double sure = tolerant ? larger(set->tolerance, q->sure) : q->sure;
     bool beyond = false;
     for (uint32_t i = 0; i < p->count; i++) {
         double height = way * obstruction_height(q, points[i]);

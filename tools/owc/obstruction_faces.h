@@ -37,7 +37,8 @@ struct obstruction_face {
     uint32_t plane;
     uint32_t polygon; /* place in the file */
     tree_item item;
-    int sign; /* -1: it looks against its plane's normal */
+    int sign;   /* -1: it looks against its plane's normal */
+    bool rough; /* a part that was cut off in floating point: its corners are not the piece's */
 };
 
 struct obstruction_set {
@@ -57,6 +58,10 @@ struct obstruction_set {
 void obstruction_set_begin(struct obstruction_set *set, const struct mesh *mesh,
                            const struct arrangement *arrangement, const struct pieces *pieces,
                            double tolerance, const tree_item *items, uint32_t count);
+
+/* Some faces of a set, as a set. */
+void obstruction_set_part(struct obstruction_set *part, const struct obstruction_set *set,
+                          const uint32_t *faces, uint32_t count);
 void obstruction_set_free(struct obstruction_set *set);
 
 /* Can p obstruct q? Not for two faces of one plane record. */
@@ -78,6 +83,17 @@ bool obstruction_parts_overlap(const struct obstruction_set *set, const struct o
 /* Do two faces of one plane record that look the same way overlap? */
 bool obstruction_overlap(const struct obstruction_set *set, const struct obstruction_face *p,
                          const struct obstruction_face *q);
+
+/* fmin and fmax of numbers, in line. */
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 static inline double obstruction_height(const struct obstruction_face *face, const double at[3])
 {

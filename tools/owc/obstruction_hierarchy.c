@@ -37,8 +37,8 @@ static int widest_axis(const struct grower *g, const uint32_t *faces, uint32_t c
         double high = -INFINITY;
         for (uint32_t i = 0; i < count; i++) {
             double value = coordinate(g, faces[i], axis);
-            low = fmin(low, value);
-            high = fmax(high, value);
+            low = smaller(low, value);
+            high = larger(high, value);
         }
         if (high - low > widest) {
             widest = high - low;
@@ -93,13 +93,13 @@ static void bound(const struct hierarchy *h, struct hierarchy_node *node)
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         const struct obstruction_face *face = &set->faces[h->faces[i]];
         for (int k = 0; k < 3; k++) {
-            node->normal_low[k] = fmin(node->normal_low[k], face->normal[k]);
-            node->normal_high[k] = fmax(node->normal_high[k], face->normal[k]);
+            node->normal_low[k] = smaller(node->normal_low[k], face->normal[k]);
+            node->normal_high[k] = larger(node->normal_high[k], face->normal[k]);
         }
         for (size_t p = face->first; p < face->first + face->count; p++) {
             for (int k = 0; k < 3; k++) {
-                node->low[k] = fmin(node->low[k], set->points[p][k]);
-                node->high[k] = fmax(node->high[k], set->points[p][k]);
+                node->low[k] = smaller(node->low[k], set->points[p][k]);
+                node->high[k] = larger(node->high[k], set->points[p][k]);
             }
         }
     }
@@ -110,8 +110,8 @@ static void bound(const struct hierarchy *h, struct hierarchy_node *node)
     }
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         double height = obstruction_height(&set->faces[h->faces[i]], node->middle);
-        node->height_low = fmin(node->height_low, height);
-        node->height_high = fmax(node->height_high, height);
+        node->height_low = smaller(node->height_low, height);
+        node->height_high = larger(node->height_high, height);
     }
 }
 
@@ -124,8 +124,9 @@ static void grow(const struct grower *g, uint32_t first, uint32_t count, uint32_
     node->first = first;
     node->count = count;
     node->parent = parent;
+    node->leaf = count <= LEAF_FACES;
     bound(h, node);
-    if (count > LEAF_FACES) {
+    if (!node->leaf) {
         halve(g, h->faces + first, count, widest_axis(g, h->faces + first, count));
         grow(g, first, count / 2, number);
         grow(g, first + count / 2, count - count / 2, number);
@@ -166,7 +167,7 @@ void hierarchy_begin(struct hierarchy *h, struct obstruction_set *set)
     struct hierarchy_node all = { .first = 0, .count = count };
     bound(h, &all);
     for (int k = 0; k < 3; k++) {
-        g.weight = fmax(g.weight, NORMAL_WEIGHT * (all.high[k] - all.low[k]));
+        g.weight = larger(g.weight, NORMAL_WEIGHT * (all.high[k] - all.low[k]));
     }
     grow(&g, 0, count, MESH_NONE);
     find_coplanar(h);
@@ -208,7 +209,7 @@ static double farthest_height(const struct hierarchy_node *node,
     double height = way * face->offset;
     for (int k = 0; k < 3; k++) {
         double n = way * face->normal[k];
-        height += n * (n > 0 ? node->high[k] : node->low[k]);
+        height += larger(n * node->high[k], n * node->low[k]); /* without a branch */
     }
     return height;
 }
@@ -219,14 +220,13 @@ static double farthest_above(const struct hierarchy_node *node, const double poi
     double height = way > 0 ? node->height_high : -node->height_low;
     for (int k = 0; k < 3; k++) {
         double x = way * (point[k] - node->middle[k]);
-        height += x * (x > 0 ? node->normal_high[k] : node->normal_low[k]);
+        height += larger(x * node->normal_high[k], x * node->normal_low[k]);
     }
     return height;
 }
 
-/* May the node hold a face that stands in the relation? Never false if it does. */
-static bool may_hold(const struct hierarchy *h, const struct hierarchy_node *node,
-                     const struct obstruction_face *face, enum hierarchy_way way)
+bool hierarchy_may_hold(const struct hierarchy *h, const struct hierarchy_node *node,
+                        const struct obstruction_face *face, enum hierarchy_way way)
 {
     double least = h->set->step - OBSTRUCTION_DOUBT;
     int front = way == HIERARCHY_HIDING ? 1 : -1; /* where they lie, seen from the face */
@@ -294,10 +294,10 @@ static uint32_t find_below(struct hierarchy *h, uint32_t face, enum hierarchy_wa
     uint32_t i = cursor->node;
     while (i < h->node_count) {
         const struct hierarchy_node *node = &h->nodes[i];
-        if (node->left == 0 ||
-            !(cursor->among_coplanar ? may_overlap(node, f) : may_hold(h, node, f, way))) {
+        if (node->left == 0 || !(cursor->among_coplanar ? may_overlap(node, f)
+                                                        : hierarchy_may_hold(h, node, f, way))) {
             i = node->next;
-        } else if (node->count > LEAF_FACES) {
+        } else if (!node->leaf) {
             i++;
         } else {
             uint32_t found = find_in_leaf(h, node, face, way, cursor->among_coplanar);

@@ -26,6 +26,7 @@ struct hierarchy_node {
     uint32_t left;   /* not yet visited */
     uint32_t next;   /* the node after this one and all below it */
     uint32_t parent; /* MESH_NONE: the root */
+    bool leaf;
 };
 
 struct hierarchy {
@@ -61,5 +62,9 @@ void hierarchy_visit(struct hierarchy *hierarchy, uint32_t face);
 /* The next face not yet visited that stands in the relation, or MESH_NONE. */
 uint32_t hierarchy_find(struct hierarchy *hierarchy, uint32_t face, enum hierarchy_way way,
                         struct hierarchy_cursor *cursor);
+
+/* May a node hold a face that stands in the relation? Never false if it does; not coplanar ones. */
+bool hierarchy_may_hold(const struct hierarchy *hierarchy, const struct hierarchy_node *node,
+                        const struct obstruction_face *face, enum hierarchy_way way);
 
 #endif

@@ -2,9 +2,12 @@
 /*
  * Choosing the plane of a switch. Candidates are polygons' own planes, planes
  * through an edge and a vertex, and planes swept through the gaps along some
- * directions. They are judged in floating point, on a sample where there are
- * many faces; the best few then by all faces. What the chosen plane really
- * does is decided exactly.
+ * directions. A candidate's worth is what it cuts for each bit of order that
+ * it brings: n faces that hang together lack n log n bits. First all faces
+ * across a plane count as cut; then, of the best, those that cannot stay
+ * whole; then, in small sets, the bits are those of the components that are
+ * left. All this in floating point; what the chosen plane really does is
+ * decided exactly.
  */
 #include "obstruction_plane.h"
 
@@ -12,11 +15,50 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "obstruction_ahead.h"
+#include "obstruction_boxes.h"
 #include "obstruction_whole.h"
-#include "split.h"
 #include "tools/common/xalloc.h"
 
-/* ---- where a face lies ---- */
+/* ---- candidates ---- */
+
+struct candidate {
+    double normal[3]; /* unit */
+    double offset;
+    int32_t n[3];
+    int64_t d;
+    uint32_t record;          /* MESH_NONE: a new plane */
+    double score;             /* the less, the better */
+    uint32_t cuts;            /* faces that cannot stay whole */
+    const double *through[3]; /* points that it goes through, or NULL */
+};
+
+struct chooser {
+    struct obstruction_set *set;
+    struct planes *planes;
+    const struct obstruction_effort *effort;
+    struct random *random;
+    struct candidate *best; /* finalists, the best first */
+    uint32_t best_count;
+    struct obstruction_boxes boxes;
+    struct keeper keeper;
+    uint8_t *places;
+    uint32_t *cut; /* faces that the candidate judged last cuts */
+    uint32_t cut_count;
+    uint32_t *targets; /* faces that the plane being improved cuts */
+    uint32_t target_count;
+};
+
+static double bits(double n)
+{
+    return n > 1 ? n * log2(n) : 0;
+}
+
+static double score_of(const struct chooser *c, double cuts, double bits_left)
+{
+    double gain = bits(c->set->count) - bits_left;
+    return gain > 0 ? (cuts + c->effort->price) / gain : INFINITY;
+}
 
 /* The least and the greatest height of a face's corners above n.x + offset = 0. */
 static void heights_of(const struct obstruction_set *set, const struct obstruction_face *face,
@@ -31,46 +73,6 @@ static void heights_of(const struct obstruction_set *set, const struct obstructi
         range[0] = height < range[0] ? height : range[0];
         range[1] = height > range[1] ? height : range[1];
     }
-}
-
-enum obstruction_place obstruction_place_of(const struct obstruction_set *set,
-                                            const struct obstruction_face *face, uint32_t plane)
-{
-    return (enum obstruction_place)split_side_of(set->arrangement, set->pieces, face->piece, plane);
-}
-
-/* ---- candidates ---- */
-
-struct candidate {
-    double normal[3]; /* unit */
-    double offset;
-    int32_t n[3];
-    int64_t d;
-    uint32_t record;          /* MESH_NONE: a new plane */
-    double score;             /* the less, the better */
-    const double *through[3]; /* points that it goes through, or NULL */
-};
-
-struct chooser {
-    struct obstruction_set *set;
-    struct planes *planes;
-    const uint32_t *faces;
-    uint32_t count;
-    const uint32_t *sample;
-    uint32_t sample_count;
-    const struct obstruction_effort *effort;
-    struct random *random;
-    struct candidate *best; /* finalists, the best first */
-    uint32_t best_count;
-};
-
-static double entropy(double f, double b)
-{
-    if (!(f > 0) || !(b > 0)) {
-        return 0;
-    }
-    double p = f / (f + b);
-    return -(p * log2(p) + (1 - p) * log2(1 - p));
 }
 
 /* Where a candidate puts a face. */
@@ -100,35 +102,77 @@ static enum obstruction_place candidate_place(const struct chooser *c,
     return range[1] > -range[0] ? OBSTRUCTION_FRONT : OBSTRUCTION_BACK;
 }
 
-/* What it is worth that so many faces have each place. */
-static double score_of(const struct chooser *c, const double counts[4])
+/* Counts faces by place, notes those across, and the places of all if asked to. */
+static void place_faces(struct chooser *c, const struct candidate *candidate, uint8_t *places,
+                        uint32_t most, uint32_t counts[4])
 {
-    double cuts = counts[OBSTRUCTION_ACROSS];
-    double on = counts[OBSTRUCTION_ON];
-    double front = counts[OBSTRUCTION_FRONT];
-    double back = counts[OBSTRUCTION_BACK];
-    if (back + on == 0 || front + on == 0) {
-        return INFINITY;
+    memset(counts, 0, 4 * sizeof counts[0]);
+    c->cut_count = 0;
+    for (uint32_t i = 0; i < c->boxes.count && c->cut_count <= most;) {
+        const struct obstruction_box *box = &c->boxes.all[i];
+        const uint32_t *faces = c->boxes.faces + box->first;
+        double reach;
+        double height = obstruction_box_height(box, candidate->normal, candidate->offset, &reach);
+        if (fabs(height) > reach + c->set->step) {
+            uint8_t side = height > 0 ? OBSTRUCTION_FRONT : OBSTRUCTION_BACK;
+            counts[side] += box->count;
+            for (uint32_t k = 0; places != NULL && k < box->count; k++) {
+                places[faces[k]] = side;
+            }
+            i = box->next;
+            continue;
+        }
+        for (uint32_t k = 0; box->count <= OBSTRUCTION_LEAF && k < box->count; k++) {
+            enum obstruction_place place = candidate_place(c, candidate, faces[k]);
+            counts[place]++;
+            if (place == OBSTRUCTION_ACROSS) {
+                c->cut[c->cut_count++] = faces[k];
+            }
+            if (places != NULL) {
+                places[faces[k]] = (uint8_t)place;
+            }
+        }
+        i++;
     }
-    double all = cuts + on + front + back;
-    return cuts - c->effort->balance * (all * entropy(front + cuts, back + cuts) + on);
 }
 
-/* Judges a candidate by these faces. Infinite: it takes us no further, or is worse than limit. */
-static double judge(const struct chooser *c, const struct candidate *candidate,
-                    const uint32_t *faces, uint32_t count, double limit)
+/* Judges a candidate. Infinite: it takes us no further, or is worse than limit. */
+static double judge(struct chooser *c, const struct candidate *candidate, double limit)
 {
-    uint32_t places[4] = { 0, 0, 0, 0 };
-    double most = limit + 2 * c->effort->balance * count;
-    for (uint32_t i = 0; i < count; i++) {
-        enum obstruction_place place = candidate_place(c, candidate, faces[i]);
-        places[place]++;
-        if (place == OBSTRUCTION_ACROSS && places[place] > most) {
-            return INFINITY;
-        }
+    uint32_t counts[4];
+    double most = 2 * limit * c->set->count + 8;
+    place_faces(c, candidate, NULL, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX, counts);
+    double cuts = counts[OBSTRUCTION_ACROSS];
+    double front = counts[OBSTRUCTION_FRONT];
+    double back = counts[OBSTRUCTION_BACK];
+    bool further = counts[OBSTRUCTION_ON] > 0 || (front > 0 && back > 0);
+    return further && cuts <= most ? score_of(c, cuts, bits(front + cuts) + bits(back + cuts))
+                                   : INFINITY;
+}
+
+/* Judges a candidate by what cannot stay whole; fills places. */
+static double judge_whole(struct chooser *c, const struct candidate *candidate, double limit)
+{
+    uint32_t counts[4];
+    place_faces(c, candidate, c->places, UINT32_MAX, counts);
+    double most = smaller(2 * limit * c->set->count + 8, UINT32_MAX);
+    double cuts =
+        keeper_keep(&c->keeper, candidate->normal, candidate->offset, c->places, (uint32_t)most);
+    if (cuts > most) {
+        return INFINITY;
     }
-    double counts[4] = { places[0], places[1], places[2], places[3] };
-    return score_of(c, counts);
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < c->cut_count; i++) {
+        uint8_t place = c->places[c->cut[i]];
+        counts[place] += place != OBSTRUCTION_ACROSS;
+        c->cut[left] = c->cut[i];
+        left += place == OBSTRUCTION_ACROSS;
+    }
+    c->cut_count = left;
+    double front = counts[OBSTRUCTION_FRONT];
+    double back = counts[OBSTRUCTION_BACK];
+    bool further = counts[OBSTRUCTION_ON] > 0 || (front > 0 && back > 0);
+    return further ? score_of(c, cuts, bits(front + cuts) + bits(back + cuts)) : INFINITY;
 }
 
 /* Takes a candidate among the finalists if it is good enough. */
@@ -136,7 +180,7 @@ static void enter(struct chooser *c, struct candidate *candidate)
 {
     uint32_t most = c->effort->finalists;
     double limit = c->best_count < most ? INFINITY : c->best[most - 1].score;
-    candidate->score = judge(c, candidate, c->sample, c->sample_count, limit);
+    candidate->score = judge(c, candidate, limit);
     if (!(candidate->score < limit)) {
         return;
     }
@@ -171,7 +215,7 @@ static void enter_own(struct chooser *c, uint32_t record)
 static bool make_plane(struct candidate *candidate, const double normal[3], const double point[3])
 {
     const double limit = (1 << NORMAL_BITS) - 1;
-    double greatest = fmax(fabs(normal[0]), fmax(fabs(normal[1]), fabs(normal[2])));
+    double greatest = larger(fabs(normal[0]), larger(fabs(normal[1]), fabs(normal[2])));
     if (!(greatest > 0)) {
         return false;
     }
@@ -188,16 +232,16 @@ static bool make_plane(struct candidate *candidate, const double normal[3], cons
 
 static const struct obstruction_face *any_face(const struct chooser *c)
 {
-    return &c->set->faces[c->faces[random_below(c->random, c->count)]];
+    return &c->set->faces[random_below(c->random, c->set->count)];
 }
 
 static void try_own_planes(struct chooser *c)
 {
-    bool all = c->count <= c->effort->own;
-    uint32_t count = all ? c->count : c->effort->own;
+    bool all = c->set->count <= c->effort->own;
+    uint32_t count = all ? c->set->count : c->effort->own;
     uint32_t before = MESH_NONE;
     for (uint32_t i = 0; i < count; i++) {
-        const struct obstruction_face *face = all ? &c->set->faces[c->faces[i]] : any_face(c);
+        const struct obstruction_face *face = all ? &c->set->faces[i] : any_face(c);
         if (face->plane != before) {
             enter_own(c, face->plane);
         }
@@ -268,45 +312,43 @@ static void try_edge(struct chooser *c)
 
 /* ---- climbing ---- */
 
-/* A face that the candidate cuts, if one is met soon. */
-static const struct obstruction_face *cut_face(const struct chooser *c,
-                                               const struct candidate *candidate)
+/* A face that the plane being improved cuts. */
+static const struct obstruction_face *any_target(const struct chooser *c)
 {
-    enum { TRIES = 24 };
-    uint32_t number = 0;
-    for (int i = 0; i < TRIES; i++) {
-        number = c->sample[random_below(c->random, c->sample_count)];
-        if (candidate_place(c, candidate, number) == OBSTRUCTION_ACROSS) {
-            break;
-        }
-    }
-    return &c->set->faces[number];
+    return c->target_count == 0
+               ? any_face(c)
+               : &c->set->faces[c->targets[random_below(c->random, c->target_count)]];
+}
+
+static void note_targets(struct chooser *c)
+{
+    uint32_t *swap = c->targets;
+    c->targets = c->cut;
+    c->cut = swap;
+    c->target_count = c->cut_count;
 }
 
 /* Moves one of the three points to a corner of a face that is cut, as long as that helps. */
 static void climb(struct chooser *c, struct candidate *candidate)
 {
-    for (uint32_t i = 0; i < c->effort->climbs; i++) {
+    if (candidate->through[0] == NULL || !(candidate->score < INFINITY)) {
+        return;
+    }
+    judge(c, candidate, INFINITY);
+    note_targets(c);
+    for (uint32_t i = 0; i < c->effort->climbs && c->target_count > 0; i++) {
         const double *through[3];
         struct candidate next;
         memcpy(through, candidate->through, sizeof through);
-        const double *corner = any_corner(c, cut_face(c, candidate)); /* drawn first */
+        const double *corner = any_corner(c, any_target(c)); /* drawn first */
         through[random_below(c->random, 3)] = corner;
         if (!make_through(&next, through[0], through[1], through[2])) {
             continue;
         }
-        next.score = judge(c, &next, c->sample, c->sample_count, candidate->score);
+        next.score = judge(c, &next, candidate->score);
         if (next.score < candidate->score) {
             *candidate = next;
-        }
-    }
-}
-
-static void climb_finalists(struct chooser *c)
-{
-    for (uint32_t i = 0; i < c->best_count; i++) {
-        if (c->best[i].through[0] != NULL) {
-            climb(c, &c->best[i]);
+            note_targets(c);
         }
     }
 }
@@ -327,9 +369,9 @@ static int compare_bounds(const void *left, const void *right)
 }
 
 /* The best place between two bounds; false if there is none. */
-static bool best_gap(const struct chooser *c, const struct bound *bounds, double *at)
+static bool best_gap(const struct chooser *c, const struct bound *bounds, uint32_t count,
+                     double *at)
 {
-    uint32_t count = c->sample_count;
     double best = INFINITY;
     uint32_t begun = 0;
     uint32_t ended = 0;
@@ -339,7 +381,8 @@ static bool best_gap(const struct chooser *c, const struct bound *bounds, double
         if (ended == 0 || begun == count || !(bounds[i + 1].at > bounds[i].at)) {
             continue;
         }
-        double score = begun - ended - c->effort->balance * count * entropy(begun, count - ended);
+        double gain = bits(count) - bits(begun) - bits(count - ended);
+        double score = gain > 0 ? (begun - ended + c->effort->price) / gain : INFINITY;
         if (score < best) {
             best = score;
             *at = (bounds[i].at + bounds[i + 1].at) / 2;
@@ -348,19 +391,20 @@ static bool best_gap(const struct chooser *c, const struct bound *bounds, double
     return best < INFINITY;
 }
 
-static void sweep(struct chooser *c, const double way[3], struct bound *bounds)
+static void sweep(struct chooser *c, const double way[3], const uint32_t *sample, uint32_t count,
+                  struct bound *bounds)
 {
     double shrink = c->set->step;
-    for (uint32_t i = 0; i < c->sample_count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         double range[2];
-        heights_of(c->set, &c->set->faces[c->sample[i]], way, 0, range);
+        heights_of(c->set, &c->set->faces[sample[i]], way, 0, range);
         double middle = (range[0] + range[1]) / 2; /* what reaches across less is not cut */
-        bounds[2 * i] = (struct bound){ fmin(range[0] + shrink, middle), 1 };
-        bounds[2 * i + 1] = (struct bound){ fmax(range[1] - shrink, middle), -1 };
+        bounds[2 * i] = (struct bound){ smaller(range[0] + shrink, middle), 1 };
+        bounds[2 * i + 1] = (struct bound){ larger(range[1] - shrink, middle), -1 };
     }
-    qsort(bounds, 2 * (size_t)c->sample_count, sizeof *bounds, compare_bounds);
+    qsort(bounds, 2 * (size_t)count, sizeof *bounds, compare_bounds);
     double at = 0;
-    if (best_gap(c, bounds, &at)) {
+    if (best_gap(c, bounds, count, &at)) {
         double point[3] = { way[0] * at, way[1] * at, way[2] * at };
         struct candidate candidate;
         if (make_plane(&candidate, way, point)) {
@@ -376,7 +420,12 @@ static double random_unit(struct chooser *c)
 
 static void try_sweeps(struct chooser *c)
 {
-    struct bound *bounds = xalloc(2 * (size_t)c->sample_count, sizeof *bounds);
+    uint32_t count = c->set->count < c->effort->sample ? c->set->count : c->effort->sample;
+    uint32_t *sample = xalloc(count, sizeof *sample);
+    struct bound *bounds = xalloc(2 * (size_t)count, sizeof *bounds);
+    for (uint32_t i = 0; i < count; i++) {
+        sample[i] = count < c->set->count ? random_below(c->random, c->set->count) : i;
+    }
     for (uint32_t i = 0; i < c->effort->directions; i++) {
         double way[3] = { i == 0, i == 1, i == 2 };
         double length = 1;
@@ -390,36 +439,14 @@ static void try_sweeps(struct chooser *c)
             way[0] /= length;
             way[1] /= length;
             way[2] /= length;
-            sweep(c, way, bounds);
+            sweep(c, way, sample, count, bounds);
         }
     }
+    free(sample);
     free(bounds);
 }
 
 /* ---- choosing ---- */
-
-static uint32_t *take_sample(const struct chooser *c)
-{
-    uint32_t *sample = xalloc(c->effort->sample, sizeof *sample);
-    for (uint32_t i = 0; i < c->effort->sample; i++) {
-        sample[i] = c->faces[random_below(c->random, c->count)];
-    }
-    return sample;
-}
-
-/* Does the plane, exactly, leave less for either child than there is? */
-static bool takes_further(const struct chooser *c, uint32_t plane)
-{
-    bool front = false; /* something is in front alone, or on the plane */
-    bool back = false;
-    for (uint32_t i = 0; i < c->count && !(front && back); i++) {
-        enum obstruction_place place =
-            obstruction_place_of(c->set, &c->set->faces[c->faces[i]], plane);
-        front |= place == OBSTRUCTION_FRONT || place == OBSTRUCTION_ON;
-        back |= place == OBSTRUCTION_BACK || place == OBSTRUCTION_ON;
-    }
-    return front && back;
-}
 
 static int compare_candidates(const void *left, const void *right)
 {
@@ -428,76 +455,101 @@ static int compare_candidates(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* The finalists, judged by all faces, the best first. */
-static void judge_finalists(struct chooser *c)
+static void find_finalists(struct chooser *c)
 {
-    double limit = INFINITY;
+    try_own_planes(c);
+    for (uint32_t i = 0; i < c->effort->edges; i++) {
+        try_edge(c);
+    }
+    try_sweeps(c);
+    for (uint32_t i = 0; i < c->best_count && i < c->effort->climbers; i++) {
+        climb(c, &c->best[i]);
+    }
     for (uint32_t i = 0; i < c->best_count; i++) {
-        c->best[i].score = judge(c, &c->best[i], c->faces, c->count, limit);
-        limit = fmin(limit, c->best[i].score);
+        c->best[i].score = judge_whole(c, &c->best[i], INFINITY);
+        c->best[i].cuts = c->cut_count;
     }
     qsort(c->best, c->best_count, sizeof *c->best, compare_candidates);
 }
 
-/* Judges finalists by what is cut in the end. */
-static void judge_wholes(struct chooser *c)
+/* Of those that cut as little as the best, the best by the components that they leave. */
+static void look_ahead(struct chooser *c)
 {
-    uint8_t *places = xalloc(c->count, sizeof *places);
-    for (uint32_t i = 0; i < c->best_count; i++) {
-        struct candidate *candidate = &c->best[i];
-        double counts[4] = { 0, 0, 0, 0 };
-        if (!(candidate->score < INFINITY)) {
-            continue;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < c->best_count && count < c->effort->looks; i++) {
+        struct candidate candidate = c->best[i];
+        if (candidate.score < INFINITY && candidate.cuts <= c->best[0].cuts) {
+            c->best[i] = c->best[count];
+            judge_whole(c, &candidate, INFINITY);
+            double left =
+                obstruction_bits_ahead(c->set, candidate.normal, candidate.offset, c->places);
+            candidate.score = score_of(c, candidate.cuts, left);
+            c->best[count++] = candidate;
         }
-        for (uint32_t k = 0; k < c->count; k++) {
-            places[k] = (uint8_t)candidate_place(c, candidate, c->faces[k]);
-        }
-        obstruction_keep_whole(c->set, candidate->normal, candidate->offset, c->faces, c->count,
-                               places);
-        for (uint32_t k = 0; k < c->count; k++) {
-            counts[places[k]]++;
-        }
-        candidate->score = score_of(c, counts);
     }
-    free(places);
-    qsort(c->best, c->best_count, sizeof *c->best, compare_candidates);
+    qsort(c->best, count, sizeof *c->best, compare_candidates);
 }
 
-uint32_t obstruction_choose(struct obstruction_set *set, struct planes *planes,
-                            const uint32_t *faces, uint32_t count,
-                            const struct obstruction_effort *effort, struct random *random)
+/* Where each face goes, exactly. False: all would go into one child. */
+static bool find_places(struct chooser *c, uint32_t number, uint8_t *places)
 {
-    struct chooser c = { set, planes, faces, count, faces, count, effort, random, NULL, 0 };
-    uint32_t *sample = NULL;
-    uint32_t chosen = set->faces[faces[0]].plane;
+    const struct plane *plane = &c->planes->all[number];
+    double length = sqrt(plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
+                         plane->normal[2] * plane->normal[2]);
+    double normal[3] = { plane->normal[0] / length, plane->normal[1] / length,
+                         plane->normal[2] / length };
+    bool front = false; /* something is in front alone, or on the plane */
+    bool back = false;
+    for (uint32_t i = 0; i < c->set->count; i++) {
+        places[i] = (uint8_t)split_side_of(c->set->arrangement, c->set->pieces,
+                                           c->set->faces[i].piece, number);
+        front |= places[i] == OBSTRUCTION_FRONT || places[i] == OBSTRUCTION_ON;
+        back |= places[i] == OBSTRUCTION_BACK || places[i] == OBSTRUCTION_ON;
+    }
+    keeper_keep(&c->keeper, normal, plane->offset / length, places, UINT32_MAX);
+    return front && back;
+}
+
+static void choose_best(struct chooser *c, struct obstruction_choice *choice, uint8_t *places,
+                        uint32_t spare)
+{
+    for (uint32_t i = 0; i < c->best_count && c->best[i].score < INFINITY; i++) {
+        const struct candidate *best = &c->best[i];
+        choice->record = best->record;
+        choice->d = best->d;
+        memcpy(choice->n, best->n, sizeof choice->n);
+        if (best->record == MESH_NONE) {
+            plane_set(&c->planes->all[spare], best->n, best->d, 0, c->planes->tolerance_q8);
+        }
+        if (find_places(c, best->record != MESH_NONE ? best->record : spare, places) ||
+            best->record != MESH_NONE) { /* its own faces lie on it */
+            return;
+        }
+    }
+    choice->record = c->set->faces[0].plane;
+    find_places(c, choice->record, places);
+}
+
+void obstruction_choose(struct obstruction_choice *choice, uint8_t *places,
+                        struct obstruction_set *set, struct planes *planes, uint32_t spare,
+                        const struct obstruction_effort *effort, struct random *random)
+{
+    struct chooser c = { .set = set, .planes = planes, .effort = effort, .random = random };
     c.best = xalloc(effort->finalists, sizeof *c.best);
-    if (count > effort->sample) {
-        c.sample = sample = take_sample(&c);
-        c.sample_count = effort->sample;
+    c.places = xalloc(set->count, sizeof *c.places);
+    c.cut = xalloc(set->count, sizeof *c.cut);
+    c.targets = xalloc(set->count, sizeof *c.targets);
+    obstruction_boxes_begin(&c.boxes, set);
+    keeper_begin(&c.keeper, set);
+    find_finalists(&c);
+    if (set->count <= effort->ahead) {
+        look_ahead(&c);
     }
-    try_own_planes(&c);
-    for (uint32_t i = 0; i < effort->edges; i++) {
-        try_edge(&c);
-    }
-    try_sweeps(&c);
-    climb_finalists(&c);
-    judge_finalists(&c);
-    if (count <= effort->ahead) {
-        judge_wholes(&c);
-    }
-    for (uint32_t i = 0; i < c.best_count && c.best[i].score < INFINITY; i++) {
-        if (c.best[i].record != MESH_NONE) { /* its own faces lie on it */
-            chosen = c.best[i].record;
-            break;
-        }
-        uint32_t plane = plane_add(planes, c.best[i].n, c.best[i].d, 0);
-        if (takes_further(&c, plane)) {
-            chosen = plane;
-            break;
-        }
-        planes->count--;
-    }
-    free(sample);
+    choose_best(&c, choice, places, spare);
+    keeper_free(&c.keeper);
+    obstruction_boxes_free(&c.boxes);
     free(c.best);
-    return chosen;
+    free(c.places);
+    free(c.cut);
+    free(c.targets);
 }

@@ -10,15 +10,18 @@
 #include "random.h"
 #include "split.h"
 
+/* How hard a good plane is looked for. */
 struct obstruction_effort {
     uint32_t own;        /* polygons' own planes tried */
     uint32_t edges;      /* planes through an edge and a vertex tried */
     uint32_t directions; /* of planes swept through gaps */
-    uint32_t sample;     /* faces by which candidates are judged at first */
-    uint32_t climbs;     /* steps by which each finalist is improved */
-    uint32_t finalists;  /* candidates that all faces then judge */
-    uint32_t ahead;      /* up to so many faces, finalists are judged by what is cut in the end */
-    double balance;      /* what perfect balance is worth, in cuts a face */
+    uint32_t sample;     /* faces that a sweep looks at */
+    uint32_t climbers;   /* the best so many candidates are improved, */
+    uint32_t climbs;     /* in so many steps */
+    uint32_t finalists;  /* candidates of which is counted what stays whole */
+    uint32_t ahead;      /* up to so many faces, the components that are left are found for */
+    uint32_t looks;      /* the best so many */
+    double price;        /* what a switch costs, in cuts */
 };
 
 /* Where a face goes. */
@@ -29,21 +32,22 @@ enum obstruction_place {
     OBSTRUCTION_ACROSS = SPLIT_ACROSS
 };
 
-/*
- * On a plane are its own faces and what is within a lattice step of it; across
- * it what reaches beyond the tolerance on both sides. Exact.
- */
-enum obstruction_place obstruction_place_of(const struct obstruction_set *set,
-                                            const struct obstruction_face *face, uint32_t plane);
+/* A plane that was chosen. */
+struct obstruction_choice {
+    uint32_t record; /* a polygon's, or MESH_NONE: a new one, n.v + d = 0 */
+    int32_t n[3];
+    int64_t d;
+};
 
 /*
- * A plane for a switch among these faces of the set, count >= 2; added to
- * planes if it is new. Fewer than count faces, parts counted, lie on or in
- * front of it, and fewer on or behind it, or some lie on it: so what goes into
- * either child is always less than there was.
+ * Chooses a plane for a switch among all faces of a set, at least 2, and says
+ * where each face goes. Fewer than all, parts counted, lie on or in front of
+ * it, and fewer on or behind it, or some lie on it: so what goes into either
+ * child is always less than there was. planes is the arrangement's; its record
+ * with the number spare, behind all others, is overwritten.
  */
-uint32_t obstruction_choose(struct obstruction_set *set, struct planes *planes,
-                            const uint32_t *faces, uint32_t count,
-                            const struct obstruction_effort *effort, struct random *random);
+void obstruction_choose(struct obstruction_choice *choice, uint8_t *places,
+                        struct obstruction_set *set, struct planes *planes, uint32_t spare,
+                        const struct obstruction_effort *effort, struct random *random);
 
 #endif

@@ -23,26 +23,16 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "obstruction_plane.h"
 #include "tools/common/xalloc.h"
 
+enum { SEARCH_FROM = 96 }; /* faces; fewer are all looked at */
+
 /* A face and where it lies. */
-struct straddler {
+struct keeper_face {
     double low; /* heights of its corners */
     double high;
-    uint32_t index; /* in the faces given */
-};
-
-struct keeper {
-    struct obstruction_set *set;
-    bool lenient; /* there is a tolerance beyond the step */
-    double normal[3];
-    double offset;
-    const uint32_t *faces;
-    uint8_t *places;
-    struct straddler *across;
-    uint32_t across_count;
-    struct straddler *sides[2]; /* what is not behind, not in front */
-    uint32_t side_counts[2];
+    uint32_t index;
 };
 
 static double height_of(const struct keeper *k, const double at[3])
@@ -68,13 +58,13 @@ static double most_within(const struct keeper *k, const struct obstruction_face 
         double u = way * obstruction_height(q, a);
         double v = way * obstruction_height(q, b);
         if (s >= from && s <= to) {
-            most = fmax(most, u);
+            most = larger(most, u);
         }
         if ((s < from) != (t < from)) {
-            most = fmax(most, u + (from - s) / (t - s) * (v - u));
+            most = larger(most, u + (from - s) / (t - s) * (v - u));
         }
         if ((s < to) != (t < to)) {
-            most = fmax(most, u + (to - s) / (t - s) * (v - u));
+            most = larger(most, u + (to - s) / (t - s) * (v - u));
         }
     }
     return most;
@@ -115,11 +105,11 @@ static bool is_stacked(const struct keeper *k, const struct obstruction_face *a,
 }
 
 /* Is it wrong to keep a on this side (1: in front) of the plane, with b on the other? */
-static bool harms(const struct keeper *k, const struct straddler *a, const struct straddler *b,
+static bool harms(const struct keeper *k, const struct keeper_face *a, const struct keeper_face *b,
                   int side)
 {
-    const struct obstruction_face *fa = &k->set->faces[k->faces[a->index]];
-    const struct obstruction_face *fb = &k->set->faces[k->faces[b->index]];
+    const struct obstruction_face *fa = &k->set->faces[a->index];
+    const struct obstruction_face *fb = &k->set->faces[b->index];
     double depth = side > 0 ? -a->low : a->high;
     double above = side > 0 ? b->high : -b->low; /* how far b comes over to a's side */
     if (k->places[b->index] == OBSTRUCTION_ACROSS) {
@@ -144,84 +134,151 @@ static bool harms(const struct keeper *k, const struct straddler *a, const struc
            (a_hides && parts_obstruct(k, &pa, &all, side));
 }
 
-static bool may_stay(const struct keeper *k, const struct straddler *a, int side)
+static struct keeper_face face_of(const struct keeper *k, uint32_t index)
 {
-    int other = side > 0;
-    uint8_t here = side > 0 ? OBSTRUCTION_FRONT : OBSTRUCTION_BACK;
-    for (uint32_t i = k->side_counts[other]; i > 0; i--) {
-        const struct straddler *b = &k->sides[other][i - 1];
-        if (b->index != a->index && k->places[b->index] != here && harms(k, a, b, side)) {
-            return false;
-        }
+    const struct obstruction_face *face = &k->set->faces[index];
+    struct keeper_face f = { INFINITY, -INFINITY, index };
+    for (size_t p = face->first; p < face->first + face->count; p++) {
+        double height = height_of(k, k->set->points[p]);
+        f.low = smaller(f.low, height);
+        f.high = larger(f.high, height);
     }
-    return true;
+    return f;
 }
 
-static double reach_of(const struct straddler *a)
+/* Does this face, if it is not on a's side alone, forbid a to stay there? */
+static bool forbids(const struct keeper *k, const struct keeper_face *a, uint32_t index, int side)
 {
-    return fmin(a->high, -a->low);
+    uint8_t here = side > 0 ? OBSTRUCTION_FRONT : OBSTRUCTION_BACK;
+    if (index == a->index || k->places[index] == here) {
+        return false;
+    }
+    struct keeper_face b = face_of(k, index);
+    return harms(k, a, &b, side);
+}
+
+/* May a node hold a face that forbids a to stay? Never false if it does; coplanar ones excepted. */
+static bool may_forbid(const struct keeper *k, const struct hierarchy_node *node,
+                       const struct keeper_face *a, int side)
+{
+    const struct obstruction_face *face = &k->set->faces[a->index];
+    double depth = side > 0 ? -a->low : a->high;
+    double low = side * k->offset; /* heights of the node's box, on a's side */
+    double high = low;
+    for (int i = 0; i < 3; i++) {
+        double n = side * k->normal[i];
+        low += smaller(n * node->low[i], n * node->high[i]);
+        high += larger(n * node->low[i], n * node->high[i]);
+    }
+    return low <= k->set->step + OBSTRUCTION_DOUBT &&
+           ((high > -depth && hierarchy_may_hold(&k->hierarchy, node, face, HIERARCHY_HIDING)) ||
+            hierarchy_may_hold(&k->hierarchy, node, face, HIERARCHY_HIDDEN));
+}
+
+/* The face that forbids a to stay on this side, or MESH_NONE. */
+static uint32_t find_forbidding(const struct keeper *k, const struct keeper_face *a, int side)
+{
+    uint32_t witness = k->witnesses[a->index][side > 0];
+    if (witness != MESH_NONE && forbids(k, a, witness, side)) {
+        return witness;
+    }
+    const struct hierarchy *h = &k->hierarchy;
+    if (!k->searching || h->coplanar[a->index]) {
+        for (uint32_t i = 0; i < k->set->count; i++) {
+            if (forbids(k, a, i, side)) {
+                return i;
+            }
+        }
+        return MESH_NONE;
+    }
+    for (uint32_t i = 0; i < h->node_count;) {
+        const struct hierarchy_node *node = &h->nodes[i];
+        if (!may_forbid(k, node, a, side)) {
+            i = node->next;
+            continue;
+        }
+        for (uint32_t f = node->first; node->leaf && f < node->first + node->count; f++) {
+            if (forbids(k, a, h->faces[f], side)) {
+                return h->faces[f];
+            }
+        }
+        i++;
+    }
+    return MESH_NONE;
+}
+
+static bool may_stay(struct keeper *k, const struct keeper_face *a, int side)
+{
+    uint32_t found = find_forbidding(k, a, side);
+    if (found != MESH_NONE) {
+        k->witnesses[a->index][side > 0] = found;
+    }
+    return found == MESH_NONE;
+}
+
+static double reach_of(const struct keeper_face *a)
+{
+    return smaller(a->high, -a->low);
 }
 
 static int compare_reaches(const void *left, const void *right)
 {
-    const struct straddler *a = left;
-    const struct straddler *b = right;
+    const struct keeper_face *a = left;
+    const struct keeper_face *b = right;
     double x = reach_of(a);
     double y = reach_of(b);
     return x != y ? (x > y ? 1 : -1) : (a->index > b->index) - (a->index < b->index);
 }
 
-/* What lies across counts on both sides until it is decided, as if it were cut. */
-static void sort_out(struct keeper *k, uint32_t count)
+void keeper_begin(struct keeper *k, struct obstruction_set *set)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        const struct obstruction_face *face = &k->set->faces[k->faces[i]];
-        struct straddler s = { INFINITY, -INFINITY, i };
-        for (size_t p = face->first; p < face->first + face->count; p++) {
-            double height = height_of(k, k->set->points[p]);
-            s.low = fmin(s.low, height);
-            s.high = fmax(s.high, height);
-        }
-        if (k->places[i] == OBSTRUCTION_ACROSS) {
-            k->across[k->across_count++] = s;
-        }
-        if (k->places[i] != OBSTRUCTION_BACK) {
-            k->sides[0][k->side_counts[0]++] = s;
-        }
-        if (k->places[i] != OBSTRUCTION_FRONT) {
-            k->sides[1][k->side_counts[1]++] = s;
-        }
+    *k = (struct keeper){ .set = set, .lenient = set->tolerance > set->step };
+    k->searching = set->count >= SEARCH_FROM;
+    k->across = xalloc(set->count, sizeof *k->across);
+    k->witnesses = xalloc(set->count, sizeof *k->witnesses);
+    for (uint32_t i = 0; i < set->count; i++) {
+        k->witnesses[i][0] = k->witnesses[i][1] = MESH_NONE;
+    }
+    if (k->searching) {
+        hierarchy_begin(&k->hierarchy, set);
     }
 }
 
-uint32_t obstruction_keep_whole(struct obstruction_set *set, const double normal[3], double offset,
-                                const uint32_t *faces, uint32_t count, uint8_t *places)
+void keeper_free(struct keeper *k)
 {
-    struct keeper k = { .set = set,
-                        .lenient = set->tolerance > set->step,
-                        .offset = offset,
-                        .faces = faces,
-                        .places = places };
+    if (k->searching) {
+        hierarchy_free(&k->hierarchy);
+    }
+    free(k->across);
+    free(k->witnesses);
+    *k = (struct keeper){ 0 };
+}
+
+/* What lies across counts on both sides until it is decided, as if it were cut. */
+uint32_t keeper_keep(struct keeper *k, const double normal[3], double offset, uint8_t *places,
+                     uint32_t most)
+{
+    uint32_t count = 0;
     uint32_t cut = 0;
     for (int i = 0; i < 3; i++) {
-        k.normal[i] = normal[i];
+        k->normal[i] = normal[i];
     }
-    k.across = xalloc(count, sizeof *k.across);
-    k.sides[0] = xalloc(count, sizeof *k.sides[0]);
-    k.sides[1] = xalloc(count, sizeof *k.sides[1]);
-    sort_out(&k, count);
-    qsort(k.across, k.across_count, sizeof *k.across, compare_reaches);
-    for (uint32_t i = 0; i < k.across_count; i++) {
-        const struct straddler *a = &k.across[i];
+    k->offset = offset;
+    k->places = places;
+    for (uint32_t i = 0; i < k->set->count; i++) {
+        if (places[i] == OBSTRUCTION_ACROSS) {
+            k->across[count++] = face_of(k, i);
+        }
+    }
+    qsort(k->across, count, sizeof *k->across, compare_reaches);
+    for (uint32_t i = 0; i < count && cut <= most; i++) {
+        const struct keeper_face *a = &k->across[i];
         int nearer = a->high > -a->low ? 1 : -1;
-        int side = may_stay(&k, a, nearer) ? nearer : may_stay(&k, a, -nearer) ? -nearer : 0;
+        int side = may_stay(k, a, nearer) ? nearer : may_stay(k, a, -nearer) ? -nearer : 0;
         if (side != 0) {
             places[a->index] = side > 0 ? OBSTRUCTION_FRONT : OBSTRUCTION_BACK;
         }
         cut += side == 0;
     }
-    free(k.across);
-    free(k.sides[0]);
-    free(k.sides[1]);
     return cut;
 }

@@ -5,15 +5,33 @@
 
 #include <stdint.h>
 
-#include "obstruction_faces.h"
-#include "obstruction_plane.h"
+#include "obstruction_hierarchy.h"
+
+struct keeper_face;
+
+/* What planes for one set have in common. */
+struct keeper {
+    struct obstruction_set *set;
+    bool lenient; /* there is a tolerance beyond the step */
+    bool searching;
+    struct hierarchy hierarchy; /* only if searching */
+    uint32_t (*witnesses)[2];   /* of each face: who forbade it last to stay behind, in front */
+    struct keeper_face *across;
+    double normal[3]; /* the plane in question */
+    double offset;
+    uint8_t *places;
+};
+
+void keeper_begin(struct keeper *keeper, struct obstruction_set *set);
+void keeper_free(struct keeper *keeper);
 
 /*
- * places[i]: where the plane n.x + offset = 0, n of length 1, puts faces[i].
+ * places[i]: where the plane n.x + offset = 0, n of length 1, puts face i.
  * Changes OBSTRUCTION_ACROSS to OBSTRUCTION_FRONT or OBSTRUCTION_BACK where
- * the face may stay whole there. Returns how many are left to cut.
+ * the face may stay whole there. Returns how many are left to cut; gives up
+ * when there are more than most.
  */
-uint32_t obstruction_keep_whole(struct obstruction_set *set, const double normal[3], double offset,
-                                const uint32_t *faces, uint32_t count, uint8_t *places);
+uint32_t keeper_keep(struct keeper *keeper, const double normal[3], double offset, uint8_t *places,
+                     uint32_t most);
 
 #endif

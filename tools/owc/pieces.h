@@ -17,10 +17,11 @@ struct piece {
     uint32_t record;  /* its plane */
 };
 
-/* What was cut, and by which plane. */
+/* What was cut, by which plane, and from where to where. */
 struct piece_cut {
     uint32_t polygon; /* of the mesh */
     uint32_t plane;
+    uint32_t ends[2]; /* vertices of the arrangement; concave outlines: the first and the last */
 };
 
 /* Corner arrays run in parallel. An edge word is line << 1 | mark, of the edge to the next corner. */

@@ -38,9 +38,8 @@ struct grouper {
     struct mesh *mesh;
     const struct model *model;
     struct own_plane *own;
-    uint32_t *order;    /* polygons, largest first */
-    uint32_t *at_first; /* polygons at each point: a list of lists */
-    uint32_t *at_polygons;
+    uint32_t *order; /* polygons, largest first */
+    struct mesh_around around;
     struct map64 cells; /* hash of a plane to the first polygon with it */
     uint32_t *cell_next;
     uint32_t *tried;   /* the founder that last tried this polygon */
@@ -141,30 +140,6 @@ static void sort_by_area(struct grouper *g)
 
 /* ---- neighbours: by corners, and by cells of planes ---- */
 
-static void list_polygons_at_points(struct grouper *g)
-{
-    const struct mesh *mesh = g->mesh;
-    g->at_first = xalloc_zero((size_t)mesh->point_count + 2, sizeof *g->at_first);
-    uint32_t *first = g->at_first + 1;
-    size_t all = 0;
-    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
-            first[mesh->corners[mesh->polygons[i].first + k] + 1]++;
-        }
-        all += mesh->polygons[i].count;
-    }
-    for (uint32_t i = 0; i < mesh->point_count; i++) {
-        first[i + 1] += first[i];
-    }
-    g->at_polygons = xalloc(all, sizeof *g->at_polygons);
-    for (uint32_t i = 0; i < mesh->polygon_count; i++) {
-        for (uint32_t k = 0; k < mesh->polygons[i].count; k++) {
-            /* Shifts first[p] to where the next list begins: at_first is then in place. */
-            g->at_polygons[first[mesh->corners[mesh->polygons[i].first + k]]++] = i;
-        }
-    }
-}
-
 /* The cell of a plane; corner's bits 0 to 3 choose the lower or upper cell near it. */
 static uint64_t cell_key(const double normal[3], double distance, double sign, unsigned corner)
 {
@@ -239,12 +214,12 @@ static void follow_corners(struct grouper *g, uint32_t founder, uint32_t number)
     const struct mesh_polygon *polygon = &g->mesh->polygons[number];
     for (uint32_t k = 0; k < polygon->count; k++) {
         uint32_t point = g->mesh->corners[polygon->first + k];
-        uint32_t end = g->at_first[point + 1];
-        if (end - g->at_first[point] > MOST_AT_POINT) {
+        size_t end = g->around.first[point + 1];
+        if (end - g->around.first[point] > MOST_AT_POINT) {
             continue;
         }
-        for (uint32_t i = g->at_first[point]; i < end; i++) {
-            try_polygon(g, founder, g->at_polygons[i]);
+        for (size_t i = g->around.first[point]; i < end; i++) {
+            try_polygon(g, founder, g->around.all[i].polygon);
         }
     }
 }
@@ -371,15 +346,22 @@ static void add_record(struct grouper *g, uint32_t founder)
     g->planes->shared += g->member_count > 1;
 }
 
+void plane_set(struct plane *plane, const int32_t n[3], int64_t d, int64_t reach,
+               uint32_t tolerance_q8)
+{
+    *plane = (struct plane){ .d = d, .reach = reach, .offset = (double)d };
+    for (int k = 0; k < 3; k++) {
+        plane->n[k] = n[k];
+        plane->normal[k] = n[k];
+    }
+    plane->tolerance = exact_tolerance(n, tolerance_q8);
+    plane->sure = (double)(plane->tolerance > reach ? plane->tolerance : reach) + 1;
+}
+
 uint32_t plane_add(struct planes *planes, const int32_t n[3], int64_t d, int64_t reach)
 {
-    struct plane plane = { .d = d, .reach = reach, .offset = (double)d };
-    for (int k = 0; k < 3; k++) {
-        plane.n[k] = n[k];
-        plane.normal[k] = n[k];
-    }
-    plane.tolerance = exact_tolerance(n, planes->tolerance_q8);
-    plane.sure = (double)(plane.tolerance > reach ? plane.tolerance : reach) + 1;
+    struct plane plane;
+    plane_set(&plane, n, d, reach, planes->tolerance_q8);
     planes->all =
         xgrow(planes->all, &planes->capacity, (size_t)planes->count + 1, sizeof *planes->all);
     planes->all[planes->count] = plane;
@@ -394,7 +376,7 @@ void plane_group(struct planes *planes, struct mesh *mesh, const struct model *m
     *planes = (struct planes){ .tolerance_q8 = tolerance_q8 };
     find_own_planes(&g);
     sort_by_area(&g);
-    list_polygons_at_points(&g);
+    mesh_around_find(&g.around, mesh);
     enter_cells(&g);
     g.members = xalloc(count, sizeof *g.members);
     g.tried = xalloc(count, sizeof *g.tried);
@@ -408,8 +390,7 @@ void plane_group(struct planes *planes, struct mesh *mesh, const struct model *m
     map64_free(&g.cells);
     free(g.own);
     free(g.order);
-    free(g.at_first);
-    free(g.at_polygons);
+    mesh_around_free(&g.around);
     free(g.cell_next);
     free(g.tried);
     free(g.members);

@@ -24,6 +24,10 @@ struct planes {
 void plane_group(struct planes *planes, struct mesh *mesh, const struct model *model,
                  uint32_t tolerance_q8);
 
+/* Makes a plane that is among no planes yet; see plane_add. */
+void plane_set(struct plane *plane, const int32_t n[3], int64_t d, int64_t reach,
+               uint32_t tolerance_q8);
+
 /*
  * Adds the plane n.v + d = 0. The components' magnitudes are below
  * 2^NORMAL_BITS, not all zero. reach: see struct plane.

@@ -18,8 +18,8 @@ struct attempt {
     uint32_t polygons;
 };
 
-static const double balances[] = { 0.1, 0.1, 0.04, 0.25 };
-enum { BALANCES = sizeof balances / sizeof balances[0] };
+static const double prices[] = { 0.5, 0.5, 0.25, 1 };
+enum { PRICES = sizeof prices / sizeof prices[0] };
 
 static void mark(bool *drawn, tree_item item)
 {
@@ -85,9 +85,10 @@ static bool build(struct attempt *a, uint32_t number, uint32_t best, const struc
         return true;
     }
     struct obstruction_options options = { .seed = strategy->seed + number - 3,
+                                           .threads = strategy->threads,
                                            .tolerance_q8 = strategy->tolerance_q8,
                                            .two_sided = strategy->two_sided,
-                                           .balance = balances[number - 3],
+                                           .price = prices[number - 3],
                                            .most = (uint64_t)best * (strategy->two_sided ? 2 : 1) };
     return obstruction_build(&a->tree, &a->planes, mesh, &a->arrangement, &a->pieces, &options,
                              progress);
@@ -106,7 +107,7 @@ void smallest_build(struct tree *tree, struct arrangement *arrangement, struct p
 {
     struct attempt *best = NULL;
     bool fine = true;
-    for (uint32_t i = 0; fine && i < 3 + BALANCES; i++) { /* until obstruction is out of reach */
+    for (uint32_t i = 0; fine && i < 3 + PRICES; i++) { /* until obstruction is out of reach */
         struct attempt *a = xalloc_zero(1, sizeof *a);
         attempt_begin(a, planes, mesh);
         fine = build(a, i, best == NULL ? 0 : best->polygons, mesh, strategy, progress);

@@ -236,7 +236,11 @@ void split_piece(struct splitter *splitter, struct arrangement *arrangement, str
     *back = put_piece(&cut, false);
     pieces->cuts = xgrow(pieces->cuts, &pieces->cut_capacity, (size_t)pieces->splits + 1,
                          sizeof *pieces->cuts);
-    pieces->cuts[pieces->splits++] = (struct piece_cut){ cut.piece.polygon, plane };
+    pieces->cuts[pieces->splits++] = (struct piece_cut){
+        cut.piece.polygon,
+        plane,
+        { splitter->crossings[0], splitter->crossings[cut.crossing_count - 1] },
+    };
 }
 
 void splitter_free(struct splitter *splitter)

@@ -47,6 +47,7 @@ void stats_write(struct outfile *out, const struct blob *blob, const struct comp
         { "uneven_triangulated", stats->uneven_cut },
         { "planes", stats->planes },
         { "shared_planes", stats->shared_planes },
+        { "merged_polygons", stats->merged },
         { "vanished_pieces", stats->vanished },
         { "inserted_corners", stats->inserted },
         { "uneven_pieces", stats->uneven },

@@ -40,6 +40,7 @@ void strategy_build(struct tree *tree, struct arrangement *arrangement, struct p
     struct feudal_options feudal = { strategy->method == METHOD_FEUDAL_DYNAMIC, strategy->seed,
                                      strategy->two_sided };
     struct obstruction_options obstruction = { .seed = strategy->seed,
+                                               .threads = strategy->threads,
                                                .tolerance_q8 = strategy->tolerance_q8,
                                                .two_sided = strategy->two_sided };
     if (strategy->into != NULL) {

@@ -30,6 +30,7 @@ struct strategy {
     uint32_t candidates;
     double conflict_weight;
     uint64_t seed;
+    uint32_t threads;                   /* 0: as many as there are processors */
     uint32_t tolerance_q8;              /* with METHOD_OBSTRUCTION: of the relation */
     const struct user_planes *dividing; /* with METHOD_BSP: switches before all others; or NULL */
     bool dividing_axis;                 /* with METHOD_BSP: planes along the axes, at gaps */

@@ -77,10 +77,18 @@ def virtio(report, guest):
 def console(report, guest):
     """Graphics while it draws, text again whatever ends it: itself or the one that draws."""
     mode = "vmtool console"
+    address, width, height, stride = FRAMES_565
+    wanted = to_565(orbit(VIEWS, width, height, "--format", "rgb565")[0])
+
+    def look():
+        return rows_565(guest.memory(address, stride * height), width, height, stride)
+
     for signal, child in (("TERM", False), ("INT", False), ("SEGV", True), ("KILL", True),
                           ("KILL", False)):
         program = show(guest, 0, "--device /dev/fb0")
         during = soon(lambda: guest.must(mode), "graphics")
+        if signal in ("TERM", "INT"):        # it looks after them once it draws
+            soon(lambda: look() == wanted, True)
         program.kill(signal, program.child() if child else program.pid)
         status = program.wait()
         after = soon(lambda: guest.must(mode), "text", 5)

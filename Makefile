@@ -179,9 +179,11 @@ submake = @+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$
 
 .PHONY: help demo check check-all check-rest format golden-update fuzz install clean FORCE
 help: ## show this list
-	@grep -hE '^[a-z-]+:.*## ' $(firstword $(MAKEFILE_LIST)) | sort | \
+	@grep -hE '^[a-z-]+:.*## ' Makefile mk/*.mk | sort | \
 	    while IFS= read -r l; do printf '  make %-14s%s\n' "$${l%%:*}" "$${l#*## }"; done
 	@echo '  make                build/owgen, build/owc, build/owsim and build/owbench'
+	@echo '  make BOARD=NAME     a program for a board without an operating system: $(bare_boards)'
+	@echo '  make BOARD=NAME run shows it in QEMU; TREE=FILE.owt: another tree than the Old Well'
 	@echo 'Variables: O=folder CC=compiler CFLAGS=... SAN=1 (sanitizers) WERROR=1 STRICT=1 V=1'
 
 demo: ## the Old Well in one turn: pictures in build/demo

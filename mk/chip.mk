@@ -103,8 +103,11 @@ $(foreach v,lm3s6965evb lm3s6965evb-planes,$(eval $(call bare_program,$(v),size-
     $(wildcard firmware/core/*.c) hal/bare/memory.c tests/chip/main_size.c \
     boards/lm3s6965evb/tree.S)))
 $(eval $(call bare_objects,lm3s6965evb-planes))
-.PHONY: size
-size: $(O)/size-lm3s6965evb.elf $(O)/size-lm3s6965evb-planes.elf $(foreach b,lm3s6965evb raspi2b,$(O)/oldwell-$(b).elf)
+.PHONY: size size-programs
+size-programs: $(O)/size-lm3s6965evb.elf $(O)/size-lm3s6965evb-planes.elf $(foreach b,lm3s6965evb raspi2b,$(O)/oldwell-$(b).elf)
+size: ## flash and RAM of the core and the boards, part by part
+	@scripts/setup demo chip
+	$(submake) size-programs
 	@scripts/size "$(O)"
 $(foreach b,$(bare_boards),$(eval $(call bare_board,$(b))))
 -include $(shell find $(foreach b,$(bare_boards) lm3s6965evb-planes,$(O)/$(b)) -name '*.d' 2>/dev/null)
@@ -143,3 +146,10 @@ $(O)/tests/panel_dump $(O)/tests/read_message $(O)/tests/scenes $(O)/tests/sprea
 	@mkdir -p $(@D)
 	@echo "  ld $@"
 	$(Q)$(link_program)
+
+# Instructions a frame on a Cortex-M3: exact, so no pass is repeated.
+.PHONY: bench-chip
+bench: bench-chip
+bench-chip: chip-tools ## the part of make bench that counts a Cortex-M3's instructions in QEMU
+	@scripts/setup chip
+	@scripts/bench-chip "$(O)"

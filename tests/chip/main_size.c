@@ -5,6 +5,7 @@
  * greys. Linked, not run.
  */
 #include "ow_draw.h"
+#include "ow_shade.h"
 #include "ow_surface.h"
 
 enum { WIDTH = 128, HEIGHT = 64, MEMORY_BYTES = 20 << 10 };

@@ -31,11 +31,13 @@ struct reader {
     enum ow_status (*band)(struct ow_workspace *workspace, const struct ow_target *target,
                            struct ow_stats *stats);
     const struct ow_parts *parts;
+    const struct ow_surface_kind *segments;
 };
 
 /* Those of the copies are declared as the build names them. */
 #define DECLARE(prefix)                                                                          \
     extern const struct ow_parts prefix##ow_parts_all;                                           \
+    extern const struct ow_surface_kind prefix##ow_surface_segments;                             \
     enum ow_status prefix##ow_tree_open(struct ow_tree *tree, const void *bytes, uint32_t size); \
     enum ow_status prefix##ow_draw_begin(const struct ow_tree *tree, const struct ow_view *view, \
                                          const struct ow_look *look,                             \
@@ -47,9 +49,9 @@ DECLARE(planes4_)
 
 static const struct reader readers[] = {
     { 3, &ow_format_x8rgb565_kept, &ow_format_rgb565, planes3_ow_tree_open, planes3_ow_draw_begin,
-      planes3_ow_draw_band, &planes3_ow_parts_all },
+      planes3_ow_draw_band, &planes3_ow_parts_all, &planes3_ow_surface_segments },
     { 4, &ow_format_xrgb8888_kept, &ow_format_xrgb8888, planes4_ow_tree_open, planes4_ow_draw_begin,
-      planes4_ow_draw_band, &planes4_ow_parts_all },
+      planes4_ow_draw_band, &planes4_ow_parts_all, &planes4_ow_surface_segments },
 };
 enum { READERS = sizeof readers / sizeof readers[0] };
 
@@ -58,6 +60,7 @@ struct planes {
     const struct reader *reader;
     uint8_t *pixels; /* PIXELS of them, and a byte behind */
     uint8_t *tree;   /* the first pixel's last byte */
+    struct ow_parts parts;
 };
 
 enum filling { ZEROS, ONES, RANDOM, FILLINGS };
@@ -75,6 +78,7 @@ static void make_planes(struct planes *planes, const struct reader *reader, cons
 {
     size_t size = (size_t)PIXELS * reader->pixel_bytes;
     planes->reader = reader;
+    planes->parts = *reader->parts;
     planes->pixels = malloc(size);
     assert_non_null(planes->pixels);
     assert_true(bytes <= PIXELS);
@@ -175,7 +179,7 @@ static void draw_beside(struct planes *planes, struct random_scene *scene,
     struct ow_target target = {
         planes->pixels, WIDTH * reader->pixel_bytes, 0, HEIGHT, reader->format, NULL
     };
-    scene->workspace.parts = reader->parts;
+    scene->workspace.parts = &planes->parts;
     assert_int_equal(reader->begin(tree, view, look, &scene->workspace), OW_OK);
     assert_int_equal(reader->band(&scene->workspace, &target, NULL), OW_OK);
     scene->workspace.parts = &ow_parts_all;
@@ -223,6 +227,7 @@ static void test_pictures(void **state)
             struct ow_view view = random_scene_view(&scene, i, WIDTH, HEIGHT);
             struct ow_look look = random_scene_look((enum ow_shade)(OW_SHADE_FLAT + i % 4));
             look.order = (enum ow_order)(i / 4 % 3);
+            planes.parts.dynamic = i % 3 == 0 ? readers[r].segments : readers[r].parts->dynamic;
             look.dither = i % 2 == 1 && look.shade != OW_SHADE_ID;
             check_picture(&planes, &scene, &tree, &view, &look);
         }

@@ -23,7 +23,7 @@ enum {
 
 /* The built-in tree, from tree.S. */
 extern const uint8_t board_tree[];
-extern const uint8_t board_tree_end[];
+extern const uint32_t board_tree_bytes;
 
 static uint8_t frame[FRAME_BYTES] __attribute__((aligned(4)));
 static uint8_t arena[ARENA_BYTES] __attribute__((aligned(4)));
@@ -93,7 +93,7 @@ int main(void)
         .stack_used = chip_stack_used,
     };
     struct ow_device_config start = config;
-    start.tree_bytes = (uint32_t)(board_tree_end - board_tree);
+    start.tree_bytes = board_tree_bytes;
     start.stack_bytes = chip_stack_bytes();
     (void)ow_board_log(&board, OW_LOG_INFO, "Oldwell on lm3s6965evb");
     int status = open_panel();

@@ -2,7 +2,12 @@
 /* The built-in tree, as the compiler wrote it: the file named by TREE. */
     .section .tree, "a"
     .balign 4
-    .global board_tree, board_tree_end
+    .global board_tree
 board_tree:
     .incbin TREE
-board_tree_end:
+tree_end:
+    .section .rodata.board_tree_bytes, "a"
+    .balign 4
+    .global board_tree_bytes
+board_tree_bytes:
+    .4byte tree_end - board_tree

@@ -26,7 +26,7 @@ enum { VIEWS = 72, INTERVAL_US = 50000, ARENA_BYTES = 16 << 20, MEMORY_BYTES = 3
 
 /* The built-in tree, from tree.S. */
 extern const uint8_t board_tree[];
-extern const uint8_t board_tree_end[];
+extern const uint32_t board_tree_bytes;
 
 static uint8_t arena[ARENA_BYTES] __attribute__((aligned(8)));
 static uint8_t memory[MEMORY_BYTES] __attribute__((aligned(8)));
@@ -89,7 +89,7 @@ int main(void)
         .board = &board,
         .stream = &stream,
         .tree = board_tree,
-        .tree_bytes = (uint32_t)(board_tree_end - board_tree),
+        .tree_bytes = board_tree_bytes,
         .arena = arena,
         .arena_bytes = sizeof arena,
         .place = IN_PLANES ? place : NULL,

@@ -168,10 +168,16 @@ void chip_fault(uint32_t kind, uint32_t pc, uint32_t psr)
     chip_reset();
 }
 
+/* Between two addresses of the linker script. */
+static uint32_t words(const uint32_t *begin, const uint32_t *end)
+{
+    return (uint32_t)((uintptr_t)end - (uintptr_t)begin) / 4;
+}
+
 /* Of the first core: its stack lies highest. */
 uint32_t chip_stack_used(void)
 {
-    uint32_t all = (uint32_t)(ld_stacks_end - ld_stacks_begin);
+    uint32_t all = words(ld_stacks_begin, ld_stacks_end);
     uint32_t end = all - MODE_STACK_BYTES / 4;
     uint32_t at = all - chip_stack_bytes() / 4;
     while (at < end && ld_stacks_begin[at] == STACK_PATTERN) {
@@ -182,5 +188,5 @@ uint32_t chip_stack_used(void)
 
 uint32_t chip_stack_bytes(void)
 {
-    return (uint32_t)(ld_stacks_end - ld_stacks_begin) / CHIP_CORES * 4;
+    return words(ld_stacks_begin, ld_stacks_end) / CHIP_CORES * 4;
 }

@@ -86,18 +86,24 @@ void chip_start(void)
     NVIC_ENABLE = 1u << IRQ_UART0;
 }
 
+/* Between two addresses of the linker script. */
+static uint32_t words(const uint32_t *begin, const uint32_t *end)
+{
+    return (uint32_t)((uintptr_t)end - (uintptr_t)begin) / 4;
+}
+
 void chip_reset_entry(void)
 {
-    uint32_t *here = (uint32_t *)__builtin_frame_address(0) - LOCAL_BYTES / 4;
-    for (uint32_t *p = ld_stack_begin; p < here; p++) {
-        *p = STACK_PATTERN;
+    uint32_t free_words =
+        words(ld_stack_begin, __builtin_frame_address(0)) - LOCAL_BYTES / 4; /* below this call */
+    for (uint32_t i = 0; i < free_words; i++) {
+        ld_stack_begin[i] = STACK_PATTERN;
     }
-    const uint32_t *from = ld_data_load;
-    for (uint32_t *p = ld_data_begin; p < ld_data_end; p++) {
-        *p = *from++;
+    for (uint32_t i = 0; i < words(ld_data_begin, ld_data_end); i++) {
+        ld_data_begin[i] = ld_data_load[i];
     }
-    for (uint32_t *p = ld_bss_begin; p < ld_bss_end; p++) {
-        *p = 0;
+    for (uint32_t i = 0; i < words(ld_bss_begin, ld_bss_end); i++) {
+        ld_bss_begin[i] = 0;
     }
     protect_memory();
     chip_start();
@@ -107,16 +113,17 @@ void chip_reset_entry(void)
 
 uint32_t chip_stack_used(void)
 {
-    const uint32_t *p = ld_stack_begin;
-    while (p < ld_stack_end && *p == STACK_PATTERN) {
-        p++;
+    uint32_t all = words(ld_stack_begin, ld_stack_end);
+    uint32_t unused = 0;
+    while (unused < all && ld_stack_begin[unused] == STACK_PATTERN) {
+        unused++;
     }
-    return (uint32_t)(ld_stack_end - p) * 4;
+    return (all - unused) * 4;
 }
 
 uint32_t chip_stack_bytes(void)
 {
-    return (uint32_t)(ld_stack_end - ld_stack_begin) * 4;
+    return words(ld_stack_begin, ld_stack_end) * 4;
 }
 
 void chip_reset(void)

@@ -13,7 +13,7 @@ enum { WIDTH = 128, HEIGHT = 64, MEMORY_BYTES = 20 << 10 };
 void chip_reset_entry(void);
 
 extern const uint8_t board_tree[];
-extern const uint8_t board_tree_end[];
+extern const uint32_t board_tree_bytes;
 
 static uint8_t memory[MEMORY_BYTES] __attribute__((aligned(8)));
 static uint8_t pixels[WIDTH * HEIGHT / 2] __attribute__((aligned(4)));
@@ -40,7 +40,7 @@ void chip_reset_entry(void)
     struct ow_tree tree;
     struct ow_view view;
     struct ow_workspace workspace;
-    if (ow_tree_open(&tree, board_tree, (uint32_t)(board_tree_end - board_tree)) == OW_OK &&
+    if (ow_tree_open(&tree, board_tree, board_tree_bytes) == OW_OK &&
         ow_workspace_place(&workspace, &tree, &config, memory, sizeof memory) == OW_OK) {
         for (;;) {
             ow_camera_orbit(&camera, &tree, way << 24, 1u << 28);

@@ -17,8 +17,8 @@ enum {
     WATCHDOG_US = 4000000,
     CACHED_VERTICES = 1024,
     FRAME_BYTES = WIDTH * HEIGHT / 2,
-    ARENA_BYTES = 28 << 10,
-    MEMORY_BYTES = 24 << 10
+    ARENA_BYTES = 27 << 10,
+    MEMORY_BYTES = 26 << 10
 };
 
 /* The built-in tree, from tree.S. */

@@ -138,6 +138,21 @@ static void print_shown(const struct ow_device *device, const char *what)
     print(device, OW_LOG_INFO, text.bytes);
 }
 
+/* What the viewer would take for the tree of the moment, and what there is. */
+static void print_memory(const struct ow_device *device)
+{
+    struct text text = { 0 };
+    text_add(&text, "memory");
+    text_pair(&text, "viewer", (int32_t)ow_viewer_bytes_needed(&device->viewer.config));
+    text_pair(&text, "of", (int32_t)device->config.memory_bytes);
+    text_pair(&text, "arena", (int32_t)device->config.arena_bytes);
+    if (device->config.stack_used != NULL) {
+        text_pair(&text, "stack", (int32_t)device->config.stack_used());
+        text_pair(&text, "of", (int32_t)device->config.stack_bytes);
+    }
+    print(device, OW_LOG_INFO, text.bytes);
+}
+
 static void print_info(const struct ow_device *device)
 {
     const struct ow_tree *tree = &device->tree;
@@ -150,16 +165,7 @@ static void print_info(const struct ow_device *device)
     text_pair(&text, "polygons", (int32_t)tree->polygon_count);
     text_pair(&text, "vertices", (int32_t)tree->vertex_count);
     print(device, OW_LOG_INFO, text.bytes);
-    text = (struct text){ 0 };
-    text_add(&text, "memory");
-    text_pair(&text, "viewer", (int32_t)ow_viewer_bytes_needed(&device->viewer.config));
-    text_pair(&text, "of", (int32_t)device->config.memory_bytes);
-    text_pair(&text, "arena", (int32_t)device->config.arena_bytes);
-    if (device->config.stack_used != NULL) {
-        text_pair(&text, "stack", (int32_t)device->config.stack_used());
-        text_pair(&text, "of", (int32_t)device->config.stack_bytes);
-    }
-    print(device, OW_LOG_INFO, text.bytes);
+    print_memory(device);
 }
 
 /* ---- trees ---- */
@@ -183,6 +189,7 @@ static void show_tree(struct ow_device *device, const char *what, const void *by
                              device->config.memory_bytes);
     if (status < 0) {
         say(device, what, status);
+        print_memory(device);
         return;
     }
     device->state = OW_DEVICE_SHOWS;

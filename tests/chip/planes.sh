@@ -105,7 +105,7 @@ else
 fi
 tell 'g'
 cat "$O/chip/oldwell.owt" >&3
-if hear 'tree bytes * *'; then
+if hear "tree bytes $(stat -c %s "$O/chip/oldwell.owt") *"; then
     ok "a tree that is sent goes into the planes"
 else
     not_ok "a tree that is sent goes into the planes" "see above"

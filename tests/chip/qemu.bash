@@ -1,5 +1,5 @@
+#!/bin/bash
 # SPDX-License-Identifier: 0BSD
-# shellcheck shell=bash
 # Sourced by the tests of the chip boards: a board in QEMU, its serial port and monitor as pipes.
 # After qemu_start: fd 3 is what the board receives, 4 what it sends, 5 and 6 the monitor.
 O=${O:-build}

@@ -7,7 +7,7 @@ import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "lib"))
 # pylint: disable=wrong-import-position
-from check import OUT, orbit, owt, rgb, run, soon
+from check import OUT, orbit, owt, rgb, run, soon, watch
 from guest import Guest
 
 VIEWS = 8
@@ -55,9 +55,9 @@ def pictures(report, guest, screen):
 def moving(report, guest, screen):
     program = guest.start(TURNING)
     soon(lambda: screen.look() in screen.wanted, True)
-    seen = [screen.look() for _ in range(20)]
-    report.equal("drm: pages change whole", sum(p not in screen.wanted for p in seen), 0)
-    report.check("drm: it moves", len(set(map(tuple, seen))) > 2, "it stands still")
+    seen = watch(screen.look, 3)
+    report.equal("drm: pages change whole", sum(list(p) not in screen.wanted for p in seen), 0)
+    report.check("drm: it moves", len(set(seen)) > 2, "it stands still")
     program.kill()
     program.wait()
     got, output = guest.sh("oldwell --panel drm --once --depth 16 --retry 0 /host/oldwell.owt 2>&1")

@@ -135,3 +135,12 @@ def soon(look, wanted, seconds=30):
         if seen == wanted or time.monotonic() > end:
             return seen
         time.sleep(0.05)
+
+
+def watch(look, pictures, seconds=30):
+    """What is seen in 20 looks or more, until that many different pictures were there."""
+    end = time.monotonic() + seconds
+    seen = []
+    while len(seen) < 20 or (len(set(seen)) < pictures and time.monotonic() < end):
+        seen.append(tuple(look()))
+    return seen

@@ -94,7 +94,7 @@ struct mean {
 
 struct bench {
     const struct trees_options *options;
-    char folder[64];                /* of what lies around for a while */
+    char folder[1024];              /* of what lies around for a while */
     struct mean shared[STRATEGIES]; /* over the folder's models */
 };
 
@@ -336,7 +336,9 @@ static void remove_folder(const struct bench *b)
 
 void trees_print(const struct trees_options *options)
 {
-    struct bench b = { .options = options, .folder = "/tmp/owbench-XXXXXX" };
+    struct bench b = { .options = options };
+    const char *temporary = getenv("TMPDIR");
+    snprintf(b.folder, sizeof b.folder, "%s/owbench-XXXXXX", temporary != NULL ? temporary : ".");
     if (mkdtemp(b.folder) == NULL) {
         fail(FAIL_INPUT, b.folder, 0, "cannot be made");
     }

@@ -6,7 +6,7 @@
 # the model once: counted against the painter's pictures on two backgrounds.
 # Without --all: three scenes at 320x240, 12 s. With it (make equal): nine scenes at 320x240
 # and 1500x1500, about 20 minutes; at 1500x1500 bands of one line draw 2 views.
-# SCENES: a pattern for the scenes' names.
+# ONLY: a pattern for the scenes' names.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 2
 [ "${GOLDEN_UPDATE:-0}" = 0 ] || exit 0
@@ -91,7 +91,7 @@ scene() {
     local name=$1 model=$2 size shade empty
     shift 2
     # shellcheck disable=SC2053 # a pattern is meant
-    [[ $name == ${SCENES:-*} ]] || return 0
+    [[ $name == ${ONLY:-*} ]] || return 0
     if ! "$O/owc" "$model" --normals compute --crease 50 -o "$work/tree.owt" 2>"$work/said"; then
         echo "not ok $name: $(head -n 1 "$work/said")"
         failed=1

@@ -83,7 +83,7 @@ if [ $million = 1000000 ]; then
         verdict "$megabytes MB are too little" "$why$(left)"
     done
 else
-    echo "skip too little memory: sanitizers and emulators take more by themselves"
+    echo "# not here: too little memory, for sanitizers and emulators take more by themselves"
 fi
 
 # ---- interrupted ----

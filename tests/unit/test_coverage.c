@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: 0BSD */
 /*
- * Coverage against its definition: the same vertex positions drawn by the
- * ordinary scan on a screen of four times the width and height, 16 of its
+ * Coverage against its definition: the same vertex positions drawn by the fine
+ * scan, face over face, on a screen of four times the width and height, 16 of its
  * pixels summed and rounded once. Flat shading is equal bit for bit.
  */
 #include <setjmp.h>
@@ -14,6 +14,7 @@
 
 #include <cmocka.h>
 
+#include "ow_coverage.h"
 #include "ow_dither.h"
 #include "tests/unit/random_scene.h"
 
@@ -64,6 +65,7 @@ static void paint_face(struct canvas *canvas, const struct random_scene *scene,
 {
     static const struct ow_window window = { 0, FINE_HEIGHT, FINE_WIDTH };
     struct ow_outline_point points[MOST_CORNERS];
+    struct ow_outline_point larger[MOST_CORNERS]; /* in 1/256 of the fine screen's pixels */
     struct ow_corner_light lights[MOST_CORNERS];
     struct ow_scan_edge edges[MOST_CORNERS];
     struct ow_gradient gradient = { .beside = false };
@@ -71,8 +73,7 @@ static void paint_face(struct canvas *canvas, const struct random_scene *scene,
     uint32_t count = random_scene_outline(scene, view, face, points);
     bool smooth = ow_shade_is_smooth(canvas->shader->shade);
     for (uint32_t i = 0; i < count; i++) {
-        points[i].x *= 4;
-        points[i].y *= 4;
+        larger[i] = (struct ow_outline_point){ points[i].x * 4, points[i].y * 4 };
         if (smooth) {
             ow_shade_corner(canvas->shader, &scene->tree, ow_corner(&scene->tree, face->at, i),
                             false, &lights[i]);
@@ -81,13 +82,13 @@ static void paint_face(struct canvas *canvas, const struct random_scene *scene,
     canvas->gradient = NULL;
     if (smooth) {
         canvas->rgb = ow_face_colour(canvas->shader, &scene->tree, face);
-        ow_gradient_begin(&gradient, points, lights, count, canvas->shader->parts);
+        ow_gradient_begin(&gradient, larger, lights, count, canvas->shader->parts);
         canvas->gradient = &gradient;
     } else {
         canvas->rgb = ow_shade_face(canvas->shader, &scene->tree, face);
     }
-    if (ow_outline_box(points, count, &window, &box)) {
-        ow_scan(points, count, rule, &box, edges, &canvas->sink);
+    if (ow_outline_box_4x4(points, count, &window, &box)) {
+        ow_scan_4x4(points, count, rule, &box, edges, &canvas->sink);
     }
     canvas->gradient = NULL;
 }

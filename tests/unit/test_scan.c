@@ -14,11 +14,12 @@
 
 #include <cmocka.h>
 
-#include "ow_scan.h"
+#include "ow_coverage.h"
 
 enum { WIDTH = 64, HEIGHT = 48, MOST = 40 };
 
 static uint64_t random_state = 1;
+static int sub = OW_SUB; /* of a pixel; a quarter: the fine scan of coverage */
 
 static uint32_t random_below(uint32_t n)
 {
@@ -72,7 +73,11 @@ static void scan(struct canvas *canvas, const struct ow_outline_point *points, u
     canvas->sink = (struct ow_span_sink){ spans, 0, capacity, take };
     canvas->line = -1;
     struct ow_box box;
-    if (ow_outline_box(points, count, &canvas->window, &box)) {
+    if (sub != OW_SUB) {
+        if (ow_outline_box_4x4(points, count, &canvas->window, &box)) {
+            ow_scan_4x4(points, count, rule, &box, edges, &canvas->sink);
+        }
+    } else if (ow_outline_box(points, count, &canvas->window, &box)) {
         ow_scan(points, count, rule, &box, edges, &canvas->sink);
     }
     assert_int_equal(canvas->sink.count, 0);
@@ -101,7 +106,7 @@ static bool is_right_of(struct ow_outline_point a, struct ow_outline_point b, in
 static int winding_at(const struct ow_outline_point *points, uint32_t count, int32_t column,
                       int32_t line)
 {
-    int64_t x = OW_SUB * column + OW_SUB / 2, y = OW_SUB * line + OW_SUB / 2;
+    int64_t x = sub * column + sub / 2, y = sub * line + sub / 2;
     int winding = 0;
     for (uint32_t i = 0; i < count; i++) {
         struct ow_outline_point a = points[i], b = points[(i + 1) % count];
@@ -146,8 +151,8 @@ static void check_outline(const struct ow_outline_point *points, uint32_t count)
 
 static struct ow_outline_point random_point(int reach)
 {
-    struct ow_outline_point p = { OW_SUB / 2 * WIDTH + random_in(-reach, reach),
-                                  OW_SUB / 2 * HEIGHT + random_in(-reach, reach) };
+    struct ow_outline_point p = { sub / 2 * WIDTH + random_in(-reach, reach),
+                                  sub / 2 * HEIGHT + random_in(-reach, reach) };
     if (random_below(4) == 0) { /* on a pixel's centre */
         p.x = (p.x & ~15) + 8;
         p.y = (p.y & ~15) + 8;
@@ -197,18 +202,16 @@ static void monotone_outlines_cover_their_windings(void **state)
         struct ow_outline_point p[2 * MOST];
         uint32_t half = 2 + random_below(8), count = 0;
         int reach = random_reach();
-        int y = OW_SUB / 2 * HEIGHT - reach / 2;
+        int y = sub / 2 * HEIGHT - reach / 2;
         for (uint32_t k = 0; k < half; k++) {
             y += random_in(0, 2 * reach / (int)half);
-            y = y > OW_SUB / 2 * HEIGHT + reach ? OW_SUB / 2 * HEIGHT + reach : y;
-            p[count++] =
-                (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
+            y = y > sub / 2 * HEIGHT + reach ? sub / 2 * HEIGHT + reach : y;
+            p[count++] = (struct ow_outline_point){ sub / 2 * WIDTH + random_in(-reach, reach), y };
         }
         for (uint32_t k = 0; k < half; k++) {
             y -= random_in(0, 2 * reach / (int)half);
-            y = y < OW_SUB / 2 * HEIGHT - reach ? OW_SUB / 2 * HEIGHT - reach : y;
-            p[count++] =
-                (struct ow_outline_point){ OW_SUB / 2 * WIDTH + random_in(-reach, reach), y };
+            y = y < sub / 2 * HEIGHT - reach ? sub / 2 * HEIGHT - reach : y;
+            p[count++] = (struct ow_outline_point){ sub / 2 * WIDTH + random_in(-reach, reach), y };
         }
         check_outline(p, count);
     }
@@ -334,12 +337,23 @@ static void folded_meshes_leave_no_hole(void **state)
     }
 }
 
+/* The fine scan keeps the same rule: positions and slopes stay, pixels are a quarter as large. */
+static void the_fine_scan_covers_its_windings(void **state)
+{
+    sub = OW_SUB / 4;
+    triangles_cover_their_windings(state);
+    any_outline_covers_its_windings(state);
+    monotone_outlines_cover_their_windings(state);
+    sub = OW_SUB;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_cover_their_windings),
         cmocka_unit_test(any_outline_covers_its_windings),
         cmocka_unit_test(monotone_outlines_cover_their_windings),
+        cmocka_unit_test(the_fine_scan_covers_its_windings),
         cmocka_unit_test(holes_stay_empty),
         cmocka_unit_test(backs_have_no_pixels_and_any_has_the_same),
         cmocka_unit_test(meshes_cover_each_pixel_once),

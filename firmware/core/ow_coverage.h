@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: 0BSD */
 /*
  * Coverage [FAG83]: each pixel has 4x4 samples. The picture is that of a screen
- * of four times the width and height, 16 of its pixels summed exactly and
- * rounded once; smooth shading takes one colour for all samples that a face has
- * of a pixel: the one at the pixel's centre, or at the point of the outline that
- * is nearest to it.
+ * of four times the width and height with two sub-pixel bits fewer (vertices and
+ * edges stay where they are), 16 of its pixels summed exactly and rounded once.
+ * Smooth shading takes one colour for all samples that a face has of a pixel: the
+ * one at the pixel's centre, or at the point of the outline that is nearest to it.
  */
 #ifndef OW_COVERAGE_H
 #define OW_COVERAGE_H

@@ -116,7 +116,7 @@ enum ow_status ow_draw_begin(const struct ow_tree *tree, const struct ow_view *v
     enum ow_status status = begin_walk(frame, OW_FARTHEST_FIRST);
     frame->rule = frame->walk.reject_backs ? OW_WINDING_POSITIVE : OW_WINDING_ANY;
     if (status == OW_OK && workspace->cache_mask == OW_CACHE_ALL) {
-        ow_project_vertices(tree, view, 0, tree->vertex_count, workspace->points);
+        frame->clips = ow_project_vertices(tree, view, 0, tree->vertex_count, workspace->points);
     }
     if (status == OW_OK && draws_instances(frame)) {
         parts->instances->begin(frame);

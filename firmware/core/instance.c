@@ -233,8 +233,8 @@ static void begin(struct ow_frame *frame)
         struct ow_instance instance = ow_read_instance(tree, k);
         frame->instances_outside += place_of(&instance, &frame->look->poses[k]) != IN_REGION;
         if (all && go_to(frame, k)) {
-            ow_project_vertices(tree, frame->view, instance.first_vertex, instance.end_vertex,
-                                frame->workspace->points);
+            frame->clips |= ow_project_vertices(tree, frame->view, instance.first_vertex,
+                                                instance.end_vertex, frame->workspace->points);
         }
     }
     leave(frame);

@@ -70,6 +70,7 @@ struct ow_frame {
     struct ow_window window;
     enum ow_winding rule;
     uint32_t tag; /* the stamp in bits 24-31 */
+    bool clips;   /* of the projected vertices, an object's too, some may be OW_CLIP_FIRST */
     bool out_of_budget;
     uint32_t dropped;
     uint32_t instance;                /* in whose space all is done, from 1; 0: the tree\'s */

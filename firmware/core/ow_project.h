@@ -140,11 +140,11 @@ static inline struct ow_outline_point ow_project_vertex(const struct ow_tree *tr
     return ow_project_point(view, ow_to_camera(tree, view, vertex));
 }
 
-/* Projects vertices first .. end-1 of the tree into points[first .. end-1]. */
-void ow_project_vertices(const struct ow_tree *tree, const struct ow_view *view, uint32_t first,
+/*
+ * Projects vertices first .. end-1 of the tree into points[first .. end-1].
+ * False: none of them is OW_CLIP_FIRST.
+ */
+bool ow_project_vertices(const struct ow_tree *tree, const struct ow_view *view, uint32_t first,
                          uint32_t end, struct ow_outline_point *points);
-
-/* True if no vertex of the tree is OW_CLIP_FIRST, beyond doubt. */
-bool ow_needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view);
 
 #endif

@@ -7,10 +7,11 @@
 
 enum { ROUNDING = 8 }; /* camera units: what rounding may add to a vertex between corners, by far */
 
-bool ow_needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view)
+/* True if no vertex of the tree is OW_CLIP_FIRST, beyond doubt. */
+static bool needs_no_clipping(const struct ow_tree *tree, const struct ow_view *view)
 {
-    if (view->cuts || tree->instance_count > 0) {
-        return false; /* the box is not where the objects are */
+    if (view->cuts) {
+        return false;
     }
     for (uint32_t i = 0; i < 8; i++) { /* the corners of the box that holds all vertices */
         struct ow_camera_point p =
@@ -40,15 +41,17 @@ static void project_perspective(const ow_byte *place, const struct ow_view *view
     }
 }
 
-void ow_project_vertices(const struct ow_tree *tree, const struct ow_view *view, uint32_t first,
+bool ow_project_vertices(const struct ow_tree *tree, const struct ow_view *view, uint32_t first,
                          uint32_t end, struct ow_outline_point *points)
 {
-    if (view->projection == OW_PERSPECTIVE && ow_needs_no_clipping(tree, view)) {
+    const bool clips = !needs_no_clipping(tree, view);
+    if (view->projection == OW_PERSPECTIVE && !clips) {
         project_perspective(tree->bytes + tree->vertices_at + first * OW_VERTEX_BYTES, view,
                             end - first, points + first);
-        return;
+        return clips;
     }
     for (; first < end; first++) {
         points[first] = ow_project_vertex(tree, view, first);
     }
+    return clips;
 }

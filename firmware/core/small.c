@@ -296,7 +296,7 @@ void ow_draw_small(struct ow_frame *frame)
         .points = frame->workspace->points,
         .corners_in_record = tree->corners_in_record,
         .left_out = frame->walk.fronts_only ? OW_ITEM_REVERSE : 0,
-        .clips = !ow_needs_no_clipping(tree, frame->view),
+        .clips = frame->clips,
         .window = frame->window,
     };
     if (tree->flags & OW_TREE_INDEX32) {

@@ -542,6 +542,43 @@ static enum ow_status opened(const struct scene *scene)
 }
 
 /* The blob with one number changed, and as it was. */
+/*
+ * An object comes through the near plane, which the tree's own box does not reach: with all
+ * vertices projected at once the picture is that of few, whose faces go the ordinary way.
+ */
+static void an_object_is_cut_by_the_near_plane(void **state)
+{
+    (void)state;
+    struct ow_camera camera = { .eye = { 0, 0, 12000 * 256 },
+                                .at = { 0, 0, 0 },
+                                .up = { 0, 256, 0 },
+                                .projection = OW_PERSPECTIVE,
+                                .fov = 1u << 29,
+                                .near = 7000 * 256,
+                                .width_pixels = WIDTH,
+                                .height_pixels = HEIGHT };
+    struct scene scene;
+    struct ow_view view;
+    open_scene(&scene, NULL, false);
+    assert_int_equal(ow_view_make(&view, &camera), OW_OK);
+    for (int z = 0; z <= 12000; z += 500) {
+        struct ow_pose poses[OBJECTS] = { turned_freely(0.4, 0.7), turned_freely(0.1, 0.2) };
+        for (int k = 0; k < OBJECTS; k++) {
+            memcpy(poses[k].place, (const ow_q8[3]){ 0, 0, -7000 * 256 }, sizeof poses[k].place);
+        }
+        poses[0].place[2] = z * 256;
+        struct ow_look look = look_of(OW_SHADE_ID);
+        look.poses = poses;
+        for (uint32_t i = 0; i < 2; i++) {
+            look.order = orders[i];
+            (void)draw(&scene, &view, &look, HEIGHT, 0, got, NULL);
+            (void)draw(&scene, &view, &look, HEIGHT, 4, expected, NULL);
+            assert_int_equal(difference(), 0);
+        }
+    }
+    free(scene.blob);
+}
+
 static void refuses(struct scene *scene, uint32_t at, uint32_t count, int32_t value)
 {
     uint8_t kept[4];
@@ -615,6 +652,7 @@ int main(void)
         cmocka_unit_test(free_turns_show_all_sides),
         cmocka_unit_test(bad_poses_are_reported),
         cmocka_unit_test(wild_poses_do_no_harm),
+        cmocka_unit_test(an_object_is_cut_by_the_near_plane),
         cmocka_unit_test(opening_checks_instances),
         cmocka_unit_test(objects_have_no_objects),
     };
